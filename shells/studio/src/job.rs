@@ -10,6 +10,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Output, Stdio};
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
 use groundstate::Kind;
@@ -27,7 +28,7 @@ const LINES: usize = 20_000;
 /// LIMIT: bytes of a line.
 const LINE: u64 = 4 << 20;
 /// How often it is looked whether a process has ended.
-const LOOK: Duration = Duration::from_millis(10);
+pub const LOOK: Duration = Duration::from_millis(10);
 /// How long a process may take to end by itself.
 const GRACE: Duration = Duration::from_secs(2);
 
@@ -88,35 +89,64 @@ impl Jobs {
     /// # Errors
     /// Too many run, or the program cannot be started; a sentence.
     pub fn start(self: &Arc<Jobs>, tab: u64, words: &[String], out: Sender<Out>) -> Result<u64, String> {
-        let number = self.last.fetch_add(1, Ordering::Relaxed) + 1;
-        {
-            let mut open = self.open();
-            if open.len() >= AT_A_TIME {
-                return Err(format!("{AT_A_TIME} jobs run already: stop one first"));
+        let number = self.begin(tab)?;
+        match started(&mut self.command(words)) {
+            Ok(child) => {
+                self.work(number, out, move |task| task.follow(child));
+                Ok(number)
             }
-            open.insert(number, Running { tab, is_stopped: false });
-        }
-        let mut command = Command::new(&self.program);
-        command.args(words).current_dir(&self.folder);
-        command.env("NO_COLOR", "1").stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
-        // What it starts itself, a solver, ends with it.
-        #[cfg(unix)]
-        std::os::unix::process::CommandExt::process_group(&mut command, 0);
-        let started = command.spawn().map_err(|error| format!("the program cannot be started: {error}"));
-        let child = match started {
-            Ok(child) => child,
             Err(reason) => {
                 self.open().remove(&number);
-                return Err(reason);
+                Err(reason)
             }
-        };
-        let jobs = Arc::clone(self);
-        std::thread::spawn(move || {
-            let code = follow(&jobs, number, child, &out);
-            jobs.open().remove(&number);
-            _ = out.blocking_send(notification("studio/done", &json!({ "job": number, "code": code })));
-        });
+        }
+    }
+
+    /// Starts work of several processes for a tab. Out: its number.
+    ///
+    /// # Errors
+    /// Too many run; a sentence.
+    pub fn start_work(
+        self: &Arc<Jobs>,
+        tab: u64,
+        out: Sender<Out>,
+        work: impl FnOnce(&Task) -> Option<i32> + Send + 'static,
+    ) -> Result<u64, String> {
+        let number = self.begin(tab)?;
+        self.work(number, out, work);
         Ok(number)
+    }
+
+    fn begin(&self, tab: u64) -> Result<u64, String> {
+        let number = self.last.fetch_add(1, Ordering::Relaxed) + 1;
+        let mut open = self.open();
+        if open.len() >= AT_A_TIME {
+            return Err(format!("{AT_A_TIME} jobs run already: stop one first"));
+        }
+        open.insert(number, Running { tab, is_stopped: false });
+        Ok(number)
+    }
+
+    fn work(self: &Arc<Jobs>, number: u64, out: Sender<Out>, work: impl FnOnce(&Task) -> Option<i32> + Send + 'static) {
+        let task = Task { jobs: Arc::clone(self), number, out, left: Arc::new(AtomicU64::new(LINES as u64)) };
+        std::thread::spawn(move || {
+            let code = work(&task);
+            task.jobs.open().remove(&number);
+            _ = task.out.blocking_send(notification("studio/done", &json!({ "job": number, "code": code })));
+        });
+    }
+
+    /// A command of this program in the folder.
+    pub fn command(&self, words: &[String]) -> Command {
+        let mut command = Command::new(&self.program);
+        command.args(words);
+        self.within(command)
+    }
+
+    /// A command in the folder.
+    pub fn within(&self, mut command: Command) -> Command {
+        command.current_dir(&self.folder).env("NO_COLOR", "1");
+        command
     }
 
     /// Whether none runs.
@@ -168,45 +198,122 @@ pub fn words(job: &str, path: &str, options: &Value) -> Result<Vec<String>, Stri
     Ok(words)
 }
 
-/// Hands on what a process writes until it ends. Out: its code; none if it was stopped.
-fn follow(jobs: &Jobs, number: u64, mut child: Child, out: &Sender<Out>) -> Option<i32> {
-    let left = Arc::new(AtomicU64::new(LINES as u64));
-    let mut readers = Vec::new();
-    if let Some(stdout) = child.stdout.take() {
-        let (out, left) = (out.clone(), Arc::clone(&left));
-        readers.push(std::thread::spawn(move || hand_on(number, stdout, &out, &left)));
-    }
-    if let Some(stderr) = child.stderr.take() {
-        let (out, left) = (out.clone(), Arc::clone(&left));
-        readers.push(std::thread::spawn(move || hand_on(number, stderr, &out, &left)));
-    }
-    let begun = Instant::now();
-    let mut asked: Option<Instant> = None;
-    let code = loop {
-        match child.try_wait() {
-            Ok(Some(status)) => break status.code().filter(|_| asked.is_none()),
-            Ok(None) => {}
-            Err(_) => break None,
+/// Starts a process whose output is read here.
+///
+/// # Errors
+/// It cannot be started; a sentence.
+pub fn started(command: &mut Command) -> Result<Child, String> {
+    command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
+    // What it starts itself, a solver, ends with it.
+    #[cfg(unix)]
+    std::os::unix::process::CommandExt::process_group(command, 0);
+    let name = command.get_program().to_string_lossy().into_owned();
+    command.spawn().map_err(|error| match error.kind() {
+        std::io::ErrorKind::NotFound => format!("{name} is not installed"),
+        _ => format!("{name} cannot be started: {error}"),
+    })
+}
+
+/// Work that is done for a tab, on a thread of its own.
+#[derive(Debug)]
+pub struct Task {
+    jobs: Arc<Jobs>,
+    number: u64,
+    out: Sender<Out>,
+    /// How many lines may still be handed on.
+    left: Arc<AtomicU64>,
+}
+
+/// A process whose lines are handed on.
+#[derive(Debug)]
+pub struct Process {
+    child: Child,
+    readers: Vec<JoinHandle<()>>,
+    asked: Option<Instant>,
+}
+
+impl Process {
+    /// Its code once it has ended; none within if it was asked to end.
+    pub fn ended(&mut self) -> Option<Option<i32>> {
+        match self.child.try_wait() {
+            Ok(Some(status)) => Some(status.code().filter(|_| self.asked.is_none())),
+            Ok(None) => None,
+            Err(_) => Some(None),
         }
-        let is_stopped = jobs.open().get(&number).is_none_or(|running| running.is_stopped);
-        if is_stopped || begun.elapsed() > Duration::from_secs(SECONDS) || out.is_closed() {
-            match asked {
-                None => {
-                    end(&mut child, End::Asked);
-                    asked = Some(Instant::now());
-                }
-                Some(then) if then.elapsed() > GRACE => end(&mut child, End::Killed),
-                Some(_) => {}
+    }
+
+    /// Its code once it has ended, also if it was asked to.
+    pub fn code(&mut self) -> Option<i32> {
+        self.child.try_wait().ok().flatten().and_then(|status| status.code())
+    }
+
+    /// Asks it to end, and ends it if it does not.
+    pub fn end(&mut self) {
+        match self.asked {
+            None => {
+                end(&mut self.child, End::Asked);
+                self.asked = Some(Instant::now());
             }
+            Some(then) if then.elapsed() > GRACE => end(&mut self.child, End::Killed),
+            Some(_) => {}
         }
-        std::thread::sleep(LOOK);
-    };
-    if asked.is_some() {
-        // What it left behind would keep its output open.
-        end(&mut child, End::Killed);
     }
-    readers.into_iter().for_each(|reader| _ = reader.join());
-    code
+
+    /// Waits for all that it has written.
+    pub fn drain(mut self) {
+        if self.asked.is_some() {
+            // What it left behind would keep its output open.
+            end(&mut self.child, End::Killed);
+        }
+        self.readers.drain(..).for_each(|reader| _ = reader.join());
+    }
+}
+
+impl Task {
+    /// Who starts processes.
+    pub fn jobs(&self) -> &Jobs {
+        &self.jobs
+    }
+
+    /// Whether the tab wants no more of it.
+    pub fn is_stopped(&self) -> bool {
+        let is_stopped = self.jobs.open().get(&self.number).is_none_or(|running| running.is_stopped);
+        is_stopped || self.out.is_closed()
+    }
+
+    /// Tells the tab something.
+    pub fn say(&self, line: &Value) {
+        _ = self.out.blocking_send(notification("studio/line", &json!({ "job": self.number, "line": line })));
+    }
+
+    /// Hands on what a process writes.
+    pub fn attach(&self, mut child: Child) -> Process {
+        let mut readers = Vec::new();
+        let mut read = |from: Box<dyn Read + Send>| {
+            let (number, out, left) = (self.number, self.out.clone(), Arc::clone(&self.left));
+            readers.push(std::thread::spawn(move || hand_on(number, from, &out, &left)));
+        };
+        child.stdout.take().into_iter().for_each(|stdout| read(Box::new(stdout)));
+        child.stderr.take().into_iter().for_each(|stderr| read(Box::new(stderr)));
+        Process { child, readers, asked: None }
+    }
+
+    /// Hands on what a process writes until it ends. Out: its code; none if it was stopped.
+    pub fn follow(&self, child: Child) -> Option<i32> {
+        let mut process = self.attach(child);
+        let begun = Instant::now();
+        let code = loop {
+            if let Some(code) = process.ended() {
+                break code;
+            }
+            if self.is_stopped() || begun.elapsed() > Duration::from_secs(SECONDS) {
+                process.end();
+            }
+            std::thread::sleep(LOOK);
+        };
+        process.drain();
+        code
+    }
 }
 
 /// How a process is to end.

@@ -17,8 +17,11 @@
 mod asset;
 mod export;
 mod folder;
+mod generated;
 mod guard;
+mod inputs;
 mod job;
+mod program;
 mod request;
 mod serve;
 mod socket;

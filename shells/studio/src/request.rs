@@ -11,9 +11,10 @@ use serde_json::{Value, json};
 use tokio::sync::mpsc::Sender;
 
 use crate::folder::Folder;
-use crate::job;
+use crate::program::{self, Plan};
 use crate::studio::Studio;
 use crate::tell::Out;
+use crate::{generated, inputs, job};
 
 /// The version of these requests. A change that would mislead a front end raises it.
 const VERSION: u32 = 1;
@@ -73,6 +74,14 @@ pub fn answer(
             }
             Ok(wrote.json())
         }
+        "studio/generated" => match params["file"].as_str() {
+            Some(file) => generated::text(&studio.folder, text("path")?, file),
+            None => generated::list(&studio.folder, text("path")?),
+        },
+        "studio/inputs" => match params["file"].as_str() {
+            Some(file) => inputs::text(&studio.folder, file),
+            None => inputs::list(&studio.folder, text("path")?),
+        },
         "studio/new" => {
             writable(studio)?;
             create(studio, text("template")?, text("name")?)
@@ -82,8 +91,14 @@ pub fn answer(
             if !path.is_empty() {
                 studio.folder.place(path)?;
             }
-            if matches!(job, "build" | "generate") {
+            if matches!(job, "build" | "generate" | "program") {
                 writable(studio)?;
+            }
+            if job == "program" {
+                let plan = Plan::of(path, &params["options"])?;
+                let own = Arc::clone(studio);
+                let work = move |task: &job::Task| program::run(task, &own.folder, &plan);
+                return Ok(json!({ "job": studio.jobs.start_work(tab, out.clone(), work)? }));
             }
             let words = job::words(job, path, &params["options"])?;
             let number = studio.jobs.start(tab, &words, out.clone())?;

@@ -7,5 +7,6 @@
 )]
 
 mod attack;
+mod beside;
 mod browser;
 mod work;
