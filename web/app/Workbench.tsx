@@ -12,11 +12,14 @@ import './figures.css'
 import './canvas.css'
 import './inspector.css'
 import './panels.css'
+import './system.css'
+import './code.css'
 import './conflict.css'
 import type { Hello } from '../diagram/protocol'
 import { Canvas } from '../editor/Canvas'
 import type { Chart } from '../editor/chart'
 import { CheckPanel } from '../editor/CheckPanel'
+import { CodePanel } from '../editor/CodePanel'
 import { Dialogs } from '../editor/Dialogs'
 import type { Doc } from '../editor/document'
 import { Icon } from '../editor/icons'
@@ -28,6 +31,7 @@ import { useStore } from '../editor/store'
 import { type Panel, Studio } from '../editor/studio'
 import { TextPane } from '../editor/TextPane'
 import { TimelinePanel } from '../editor/TimelinePanel'
+import { TimesPanel, useSystem } from '../editor/TimesPanel'
 import { words } from '../words'
 import { commands, shortcut } from './commands'
 import { Sidebar, fileName, kindIcon } from './Sidebar'
@@ -187,6 +191,8 @@ const PANELS: { panel: Panel; icon: string }[] = [
   { panel: 'run', icon: 'play' },
   { panel: 'timeline', icon: 'timeline' },
   { panel: 'check', icon: 'shield' },
+  { panel: 'times', icon: 'clock' },
+  { panel: 'code', icon: 'code' },
 ]
 
 function Panels({ studio }: { studio: Studio }): ReactNode {
@@ -227,9 +233,22 @@ function Panels({ studio }: { studio: Studio }): ReactNode {
           {panel === 'run' && <RunPanel studio={studio} />}
           {panel === 'timeline' && <TimelinePanel studio={studio} />}
           {panel === 'check' && <CheckPanel studio={studio} />}
+          {panel === 'times' && <Times studio={studio} />}
+          {panel === 'code' && <CodePanel studio={studio} />}
         </div>
       )}
     </section>
+  )
+}
+
+function Times({ studio }: { studio: Studio }): ReactNode {
+  const chart = useSystem(studio)
+  if (chart) return <TimesPanel key={chart.doc.file.uri} studio={studio} chart={chart} />
+  return (
+    <div className="panel-empty tall">
+      <h3>{words.shell.panels.times}</h3>
+      <p>{words.system.noSystem}</p>
+    </div>
   )
 }
 

@@ -40,9 +40,13 @@ export function jobsFor(studio: Studio, uri: string | null): { job: JobKind; act
   switch (file.kind) {
     case 'chart': {
       const verify = { job: 'verify' as const, act: () => (hasSystem(studio, file) ? start('verify') : onModel('verify')).act() }
-      const times = hasSystem(studio, file) ? [start('times')] : []
-      const rest = studio.sibling(file, 'asm') ? [start('check'), onModel('test'), onModel('generate')] : []
-      return [...(studio.hello.readOnly ? [] : [start('build')]), verify, ...times, ...rest]
+      const system = hasSystem(studio, file)
+      const show = (job: JobKind, panel: 'times' | 'code') => ({ job, act: () => studio.store.set({ panel }) })
+      const times = system ? [show('times', 'times')] : []
+      const program = system && !studio.hello.readOnly ? [start('program')] : []
+      const rest = studio.sibling(file, 'asm') ? [start('check'), onModel('test')] : []
+      const generate = system ? [start('generate')] : studio.sibling(file, 'asm') ? [onModel('generate')] : []
+      return [...(studio.hello.readOnly ? [] : [start('build')]), verify, ...times, ...rest, ...generate, ...program]
     }
     case 'model':
       return [start('verify'), start('test'), start('review'), start('generate')]
@@ -72,6 +76,7 @@ export function commands(studio: Studio): Command[] {
   if (!studio.hello.readOnly) all.push({ name: words.commands.newProject, icon: 'plus', act: () => studio.store.set({ dialog: { kind: 'new' } }) })
   all.push(
     { name: words.commands.problems, icon: 'warning', act: () => studio.store.set({ panel: 'problems' }) },
+    { name: words.commands.code, icon: 'code', act: () => studio.store.set({ panel: 'code' }) },
     { name: words.commands.layoutBoth, icon: 'both', key: 'Ctrl 1', act: show('both') },
     { name: words.commands.layoutPicture, icon: 'picture', key: 'Ctrl 2', act: show('picture') },
     { name: words.commands.layoutText, icon: 'text', key: 'Ctrl 3', act: show('text') },
@@ -90,6 +95,7 @@ export const jobIcons: Record<JobKind, string> = {
   generate: 'code',
   review: 'search',
   times: 'clock',
+  program: 'play',
 }
 
 // Keys that work everywhere. Undo and redo reach the text of the file in front also from the canvas and the panels.

@@ -23,7 +23,7 @@ export function move(drawing: Drawing, by: ReadonlyMap<string, Point>): Operatio
 
 // Where all shapes are, for an operation on a drawing that has no places in the text: so that nothing else moves.
 export function kept(drawing: Drawing, operation: Operation): { places?: Record<string, [number, number]> } {
-  if (drawing.placed || operation.kind === 'layout' || operation.kind === 'machine') return {}
+  if (drawing.placed || ['layout', 'machine', 'set', 'addAge'].includes(operation.kind)) return {}
   const all = drawing.picture.boxes.filter((box) => box.figure !== 'exit')
   const middle = (box: Box): [number, number] => [rounded(centre(box)[0]), rounded(centre(box)[1])]
   return { places: Object.fromEntries(all.map((box) => [box.id, middle(box)])) }

@@ -80,6 +80,12 @@ export function faultsOn(drawing: Drawing, faults: readonly Fault[]): Map<string
   return found
 }
 
+// The faults that begin within a range, the worst first; hints are none.
+export const faultsAt = (faults: readonly Fault[], range: Range): Fault[] =>
+  faults
+    .filter((fault) => fault.severity !== 'hint' && contains(range, fault.range.start))
+    .sort((a, b) => WEIGHT[b.severity] - WEIGHT[a.severity])
+
 // A name for screen readers: what it is, what it says, where its arrows lead.
 export interface Spoken {
   figure: Record<Box['figure'], string>

@@ -60,7 +60,14 @@ export interface Changed {
   text: string | null
 }
 
-export type JobKind = 'verify' | 'test' | 'build' | 'check' | 'generate' | 'review' | 'times'
+export type JobKind = 'verify' | 'test' | 'build' | 'check' | 'generate' | 'review' | 'times' | 'program'
+
+// What a program does while it runs, as it wrote it.
+export interface Followed {
+  words: string
+  time_ns: number
+  phases: [task: string, phase: string | null][]
+}
 
 // Pictures of charts.
 
@@ -140,7 +147,75 @@ export interface Drawing {
   placed: boolean
   picture: Picture
   lights: Light[]
+  // What the text says of a system's parts; of machines nothing.
+  system?: SystemText | null
 }
+
+// A property as it is written, and where.
+export interface PropertyText {
+  text: string
+  range: Range
+}
+export type Property = PropertyText | null
+
+export interface PhaseText {
+  verb: 'read' | 'elaborate' | 'write' | null
+  subject: string | null
+  name: Property
+  time: Property
+  machine: Property
+  range: Range | null
+}
+
+export interface ComponentText {
+  part: 'component'
+  synchronous: boolean | null
+  period: Property
+  offset: Property
+  deadline: Property
+  awaits: Property
+  phases: PhaseText[]
+}
+
+export interface ChannelText {
+  part: 'channel'
+  made: 'swinging buffer' | 'queue' | 'shared value' | null
+  size: Property
+  master: Property
+  domain: Property
+  from: string | null
+  to: string | null
+}
+
+export interface DeviceText {
+  part: 'device'
+  domain: Property
+}
+
+export interface SystemText {
+  tick: Property
+  processors: Property
+  ages: { from: string | null; to: string | null; limit: Property }[]
+  parts: Record<string, ComponentText | ChannelText | DeviceText>
+}
+
+// Properties of a system's parts; those with a number are of the phase or the age bound of this number.
+export type PropertyName =
+  | 'timing'
+  | 'period'
+  | 'offset'
+  | 'deadline'
+  | 'awaits'
+  | 'made'
+  | 'size'
+  | 'master'
+  | 'domain'
+  | 'tick'
+  | 'processors'
+  | 'age'
+  | 'phaseTime'
+  | 'phaseName'
+  | 'phaseMachine'
 
 // A term, and what is lit by its values: a box, or a line in one.
 export interface Light {
@@ -189,6 +264,11 @@ export type Operation =
   | { kind: 'machine'; name: string; pattern: boolean; title: string }
   | { kind: 'layout' }
   | { kind: 'paste'; shapes: PastedShape[]; arrows: Arrow[] }
+  | { kind: 'set'; id: string; property: PropertyName; at?: number; value: string | null }
+  | { kind: 'addPhase'; id: string; verb: 'read' | 'elaborate' | 'write'; subject: string }
+  | { kind: 'removePhase'; id: string; at: number }
+  | { kind: 'movePhase'; id: string; at: number; to: number }
+  | { kind: 'addAge'; from: string; to: string; limit: string }
 
 export interface Edited {
   edits: TextEdit[]
@@ -218,6 +298,8 @@ export interface SessionState {
   waiting: 'step' | 'input' | 'choice' | 'nothing'
   word: string | null
   offered: string[]
+  // The ends of an input's domain that is all integers between them.
+  bounds?: [number, number] | null
   at: Place | null
   state: Record<string, string> | [string, string][]
   updates: Update[]

@@ -175,3 +175,76 @@ test('a step and its picture', async () => {
   told('step → picture', times, 'ms')
   await page.context().close()
 })
+
+const BITS = 10
+const STEPS = 10_000
+
+// Each step changes ten values: after ten thousand steps there are a hundred thousand events to draw.
+function busy(): string {
+  const names = Array.from({ length: BITS }, (_, index) => `bit${index}`)
+  return `asm Busy
+import StandardLibrary
+signature:
+\tcontrolled count: Integer
+${names.map((name) => `\tcontrolled ${name}: Boolean`).join('\n')}
+definitions:
+\tmain rule r_Main =
+\t\tpar
+\t\t\tcount := count + 1
+${names.map((name) => `\t\t\t${name} := not ${name}`).join('\n')}
+\t\tendpar
+default init s0:
+\tfunction count = 0
+${names.map((name) => `\tfunction ${name} = false`).join('\n')}
+`
+}
+
+test('a timeline of 100 000 events', async () => {
+  writeFileSync(join(studio.folder, 'Busy.asm'), busy())
+  const page = await newPage(browser, studio.address, trouble)
+  await page.evaluate(() => localStorage.setItem('groundstate-panel', '430'))
+  await page.goto(`${studio.address}#/Busy.asm`)
+  await page.reload()
+  await page.locator('.cm-content').waitFor()
+  await page.keyboard.press('F5')
+  await page.locator('.state-table').waitFor()
+  await page.getByLabel('Speed', { exact: true }).selectOption({ label: 'As fast as can be' })
+  await page.keyboard.press('F5')
+  const step = page.locator('.run-step')
+  for (let tries = 0; tries < 600; tries++) {
+    if (Number(/\d+/.exec((await step.textContent()) ?? '')?.[0] ?? 0) >= STEPS) break
+    await page.waitForTimeout(200)
+  }
+  await page.keyboard.press('F5')
+  console.log(`the run is at ${await step.textContent()}, with ${BITS} events a step`)
+  await page.getByRole('tab', { name: 'Timeline' }).click()
+  const detail = page.locator('.timeline #detail')
+  await detail.waitFor()
+  await page.waitForTimeout(1500)
+  const [x, y] = await middle(detail)
+  const where = page.locator('.timeline #where')
+  const pan = async (): Promise<number[]> => {
+    const seen = new Set<string>()
+    await page.mouse.move(x, y)
+    await page.mouse.down()
+    const panned = await frames(page, async () => {
+      for (let index = 0; index < 120; index++) {
+        await page.mouse.move(x + (index % 60 < 30 ? index % 30 : 30 - (index % 30)) * 6, y)
+        if (index % 7 === 0) seen.add((await where.textContent()) ?? '')
+        await page.waitForTimeout(8)
+      }
+    })
+    await page.mouse.up()
+    if (seen.size < 3) throw new Error(`the timeline stands still: ${[...seen].join()}`)
+    return panned
+  }
+  told('frame while panning a timeline of 100 000 events', await pan(), 'ms')
+  // All of it, then a half: each picture has tens of thousands of events.
+  const button = (name: string) => page.locator('.timeline').locator(`[data-do="${name}"]`)
+  await button('all').click()
+  await button('in').click()
+  await page.waitForTimeout(300)
+  told('frame while panning with most of it in view', await pan(), 'ms')
+  await page.evaluate(() => localStorage.removeItem('groundstate-panel'))
+  await page.context().close()
+}, 300_000)

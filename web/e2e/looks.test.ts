@@ -72,6 +72,25 @@ const VIEWS: [string, string, (page: Page) => Promise<void>][] = [
     },
   ],
   [
+    'times',
+    '#/examples/pick_and_place/PlacingSystem.chart',
+    async (page) => {
+      await shape(page, 'planner').click()
+      await page.getByRole('tab', { name: 'Times' }).click()
+      await page.locator('.times').waitFor()
+    },
+  ],
+  [
+    'generated',
+    '#/examples/coffee_machine/CoffeeMachine.asm',
+    async (page) => {
+      await page.getByRole('tab', { name: 'C++' }).click()
+      await page.getByRole('button', { name: 'Generate C++' }).last().click()
+      await page.locator('.currency.good').waitFor({ timeout: 30_000 })
+      await page.locator('.text-pane .cm-line', { hasText: 'portions' }).first().click()
+    },
+  ],
+  [
     'keys',
     '#/examples/coffee_machine/BuyCoffee.avalla',
     async (page) => {

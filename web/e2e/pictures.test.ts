@@ -127,6 +127,41 @@ test('checking', async () => {
   await page.context().close()
 })
 
+test('a system and its times', async () => {
+  const page = await newPage(browser, at('examples/pick_and_place/PlacingSystem.chart'), trouble)
+  await shape(page, 'planner').click()
+  await page.getByRole('tab', { name: 'Times' }).click()
+  await page.locator('.times').waitFor()
+  await page.getByRole('button', { name: 'Show all (F)' }).click()
+  await kept(page, 'studio-times')
+  await page.context().close()
+})
+
+test('generated C++', async () => {
+  const page = await newPage(browser, at('examples/coffee_machine/CoffeeMachine.asm'), trouble, { dark: true })
+  await page.getByRole('tab', { name: 'C++' }).click()
+  await page.getByRole('button', { name: 'Generate C++' }).last().click()
+  await page.locator('.currency.good').waitFor({ timeout: 30_000 })
+  await page.locator('.text-pane .cm-line', { hasText: 'PUSH_TEA' }).last().click()
+  await page.locator('.code-text .cm-ran-next').first().waitFor()
+  await kept(page, 'studio-code')
+  await page.context().close()
+})
+
+test('a program that runs', async () => {
+  const axis = `chart Axis\n\nimport patterns/ControlTask\n\nsystem axis "Axis"\n\ttick 0.5 ms\n\tsensor encoder "Encoder"\n\tactuator motor "Motor"\n\n\tcomponent sensing "Sensing" synchronous period 10 ms\n\t\telaborate acquire 1.5 ms\n\t\twrite position 0.5 ms\n\tendcomponent\n\n\tcomponent control "Control" synchronous period 20 ms\n\t\tread position 0.5 ms\n\t\telaborate law 6 ms\n\tendcomponent\n\n\tchannel position from sensing to control swinging buffer 2\n\tencoder -> sensing\n\tcontrol -> motor\nendsystem\n`
+  writeFileSync(join(studio.folder, 'Axis.chart'), axis)
+  const page = await newPage(browser, studio.address, trouble)
+  await page.getByRole('button', { name: 'Axis.chart' }).first().click()
+  await shape(page, 'control').waitFor()
+  await page.getByLabel('More to do with this file').click()
+  await page.getByRole('menuitem', { name: 'Build and run' }).click()
+  await page.locator('.program-now').waitFor({ timeout: 180_000 })
+  await page.locator('.row-lit').first().waitFor({ timeout: 20_000 })
+  await kept(page, 'studio-program')
+  await page.context().close()
+}, 240_000)
+
 test('conflict', async () => {
   const lamp = (action: string): string =>
     `chart Lamp\n\nmachine lamp "Lamp"\n\tcontrol light\n\tinitial state off "Off"\n\tstate on "On"\n\tguard pressed "Pressed"\n\taction count "${action}"\n\toff -> pressed yes -> count -> on\n\ton -> pressed\n\tpressed no -> off\nendmachine\n`

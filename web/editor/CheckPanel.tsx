@@ -4,6 +4,7 @@ import { type ReactNode, useEffect, useState } from 'react'
 
 import { words } from '../words'
 import { Icon } from './icons'
+import { PROGRAM_LINES, ProgramResult, latest } from './ProgramResult'
 import { TimesTables } from './TimesTable'
 import { type Job, type LinePlace, type ScenarioResult, type ToldFault, type Verdict, faultLines, scenarios, timesOf, verdicts } from './jobs'
 import { useFrame } from './shown'
@@ -59,7 +60,7 @@ export function CheckPanel({ studio }: { studio: Studio }): ReactNode {
               {words.check.stop}
             </button>
           ) : (
-            <button className="small" onClick={() => void studio.jobs.start(job.job, job.file)}>
+            <button className="small" onClick={() => void studio.jobs.start(job.job, job.file, job.options)}>
               <Icon name="restart" size={13} />
               {words.check.again}
             </button>
@@ -108,10 +109,10 @@ function Findings({ studio, job }: { studio: Studio; job: Job }): ReactNode {
   const played = scenarios(job)
   const faults = faultLines(job)
   const times = timesOf(job)
-  const rest = job.lines.filter((line) => typeof line === 'string' || !['verdict', 'scenario', 'summary', 'progress', 'fault', 'times'].includes(String(line['type'])))
+  const rest = latest(job).filter((line) => typeof line === 'string' || !['verdict', 'scenario', 'summary', 'progress', 'fault', 'times', ...PROGRAM_LINES].includes(String(line['type'])))
   return (
     <>
-      {job.running && <p className="faint-note doing">{words.check.doing[job.job]}</p>}
+      {job.running && job.job !== 'program' && <p className="faint-note doing">{words.check.doing[job.job]}</p>}
       {found.length > 0 && (
         <ul className="verdicts">
           {found.map((verdict) => (
@@ -127,6 +128,7 @@ function Findings({ studio, job }: { studio: Studio; job: Job }): ReactNode {
         </ul>
       )}
       {times.length > 0 && <TimesTables all={times} />}
+      {job.job === 'program' && <ProgramResult job={job} />}
       {faults.length > 0 && (
         <ul className="verdicts">
           {faults.map((fault, index) => (

@@ -2,19 +2,21 @@
 //
 // In: the drawing and the selection. Out: operations, renamings. It shows nothing while nothing is selected.
 
-import { type FormEvent, type ReactNode, useEffect, useId, useState } from 'react'
+import { type ReactNode, useEffect, useId, useState } from 'react'
 
 import { arrowOf } from '../diagram/gestures'
 import { faultsOn } from '../diagram/pick'
 import type { Box, Drawing } from '../diagram/protocol'
 import { words } from '../words'
 import type { Chart } from './chart'
+import { TextField } from './Field'
 import { Icon } from './icons'
 import { deleteSelected } from './keys'
 import { linkOffers } from './offers'
 import { breakTerm } from './shown'
 import { useStore } from './store'
 import type { Studio } from './studio'
+import { SystemFields } from './SystemFields'
 
 const WIDTH = 236
 const HEIGHT = 480
@@ -168,7 +170,8 @@ function OneBox({ studio, chart, drawing, box, naming }: OneBoxProps): ReactNode
           )}
         </div>
       )}
-      {box.details.length > 0 && system && (
+      {system && drawing.system && <SystemFields key={box.id} studio={studio} chart={chart} id={box.id} system={drawing.system} />}
+      {box.details.length > 0 && system && !drawing.system && (
         <div className="details">
           <span className="key">{words.inspector.details}</span>
           <ul>
@@ -215,58 +218,6 @@ function OneLine({ drawing, index }: { drawing: Drawing; index: number }): React
         <code>{arrow.to}</code>
       </div>
     </div>
-  )
-}
-
-interface FieldProps {
-  name: string
-  label: string
-  value: string
-  placeholder?: string
-  mono?: boolean
-  readOnly: boolean
-  list?: string
-  commit: (value: string) => Promise<boolean>
-  focused?: () => void
-}
-
-// A field that is committed by Enter or by leaving it, and goes back if the commit is refused.
-export function TextField({ name, label, value, placeholder, mono, readOnly, list, commit, focused }: FieldProps): ReactNode {
-  const id = useId()
-  const [text, setText] = useState(value)
-  useEffect(() => setText(value), [value])
-  const send = async (): Promise<void> => {
-    const next = text.trim()
-    if (next === value) return setText(value)
-    if (!(await commit(next))) setText(value)
-  }
-  const submit = (event: FormEvent): void => {
-    event.preventDefault()
-    void send()
-  }
-  return (
-    <form className="field" onSubmit={submit}>
-      <label htmlFor={id}>{label}</label>
-      <input
-        id={id}
-        name={name}
-        className={mono ? 'mono' : undefined}
-        value={text}
-        placeholder={placeholder}
-        readOnly={readOnly}
-        list={list}
-        spellCheck={false}
-        autoComplete="off"
-        onFocus={focused}
-        onChange={(event) => setText(event.target.value)}
-        onBlur={() => void send()}
-        onKeyDown={(event) => {
-          if (event.key !== 'Escape') return
-          setText(value)
-          event.currentTarget.closest<HTMLElement>('.editor')?.querySelector<HTMLElement>('.canvas')?.focus()
-        }}
-      />
-    </form>
   )
 }
 

@@ -9,6 +9,7 @@ import type { File, SessionState } from '../diagram/protocol'
 import { words } from '../words'
 import { Icon } from './icons'
 import type { Runner, RunState } from './run'
+import { AskedNumber, RecordedStart, SLIDES, Slider, slides } from './inputs'
 import { useStore } from './store'
 import type { Studio } from './studio'
 
@@ -68,6 +69,7 @@ function Start({ studio, active, busy }: { studio: Studio; active: string | null
             {words.run.startModel(file.path.split('/').at(-1) ?? file.path)}
           </button>
         )}
+        {file?.kind === 'model' && <RecordedStart studio={studio} file={file} busy={busy} />}
         {file?.kind === 'model' && !studio.hello.readOnly && (
           <button disabled={busy} onClick={() => void startRun(studio, 1)}>
             {words.run.random}
@@ -107,6 +109,7 @@ function Running({ studio, run, session, file }: { studio: Studio; run: RunState
             </button>
           </p>
         )}
+        {run.recorded !== null && <p className="note">{words.run.recordedFrom(run.recorded.name.split('/').at(-1) ?? '')}</p>}
         {run.broke !== null && <p className="note">{words.run.broke(run.broke)}</p>}
         <Asked runner={runner} run={run} session={session} />
         <Inputs runner={runner} run={run} />
@@ -179,7 +182,8 @@ function Asked({ runner, run, session }: { runner: Runner; run: RunState; sessio
   return (
     <fieldset className="asked" disabled={run.busy}>
       <legend>{words.run.asks(location)}</legend>
-      {session.offered.length > 0 && session.offered.length <= 12 && (
+      {session.bounds && session.bounds[1] - session.bounds[0] >= SLIDES && <AskedNumber location={location} bounds={session.bounds} give={give} />}
+      {slides(session.bounds) ? null : session.offered.length > 0 && session.offered.length <= 12 && (
         <div className="offers">
           {session.offered.map((offer) => (
             <button key={offer} onClick={() => give(offer)}>
@@ -188,7 +192,7 @@ function Asked({ runner, run, session }: { runner: Runner; run: RunState; sessio
           ))}
         </div>
       )}
-      {session.offered.length > 12 && (
+      {!slides(session.bounds) && session.offered.length > 12 && (
         <select aria-label={location} value="" onChange={(event) => give(event.target.value)}>
           <option value="" disabled>
             {words.run.value}
@@ -221,7 +225,7 @@ function Inputs({ runner, run }: { runner: Runner; run: RunState }): ReactNode {
       {[...run.sets].map(([location, value]) => (
         <div key={location} className="input-row">
           <code>{location}</code>
-          <InputControl location={location} value={value} offers={runner.offers(location)} set={(next) => void runner.set(location, next)} />
+          <InputControl location={location} value={value} offers={runner.offers(location)} bounds={runner.bounds(location)} set={(next) => void runner.set(location, next)} />
           <button className="quiet" title={words.run.askAgain} aria-label={words.run.askAgain} onClick={() => void runner.set(location, null)}>
             <Icon name="question" size={14} />
           </button>
@@ -231,7 +235,8 @@ function Inputs({ runner, run }: { runner: Runner; run: RunState }): ReactNode {
   )
 }
 
-function InputControl({ location, value, offers, set }: { location: string; value: string; offers: string[]; set: (value: string) => void }): ReactNode {
+function InputControl({ location, value, offers, bounds, set }: { location: string; value: string; offers: string[]; bounds: [number, number] | null; set: (value: string) => void }): ReactNode {
+  if (bounds && slides(bounds) && /^-?\d+$/.test(value)) return <Slider location={location} value={Number(value)} bounds={bounds} done={(next) => set(String(next))} />
   if (value === 'true' || value === 'false') {
     return (
       <button role="switch" aria-checked={value === 'true'} aria-label={location} className="switch bare" onClick={() => set(value === 'true' ? 'false' : 'true')}>

@@ -69,7 +69,7 @@ function Ages({ ages }: { ages: AgeTimes[] }): ReactNode {
       <caption>{words.times.ages}</caption>
       <thead>
         <tr>
-          {[words.times.from, words.times.to, words.times.most, words.times.bound, words.times.verdict].map((word) => (
+          {[words.times.from, words.times.to, words.times.most, words.times.bound, words.times.kept].map((word) => (
             <th key={word} scope="col">
               {word}
             </th>

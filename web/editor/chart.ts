@@ -125,7 +125,7 @@ export class Chart {
   }
 
   // The cursor in the text selects on the canvas.
-  private cursor(at: Position): void {
+  cursor(at: Position): void {
     const { pictures } = this.store.get()
     const drawing = pictures && drawingAt(pictures.drawings, at)
     if (!drawing) return
@@ -135,13 +135,14 @@ export class Chart {
   }
 
   // Does an operation on the shown drawing; resolves to the ids that it selects, or null if it was refused.
-  operate(operation: Operation, options: { select?: boolean } = {}): Promise<string[] | null> {
+  // Whoever asked may tell of a refusal at its own place.
+  operate(operation: Operation, options: { select?: boolean; refused?: (reason: string) => void } = {}): Promise<string[] | null> {
     const next = this.queue.then(() => this.perform(operation, options))
     this.queue = next.catch(() => null)
     return next
   }
 
-  private async perform(asked: Operation, options: { select?: boolean }): Promise<string[] | null> {
+  private async perform(asked: Operation, options: { select?: boolean; refused?: (reason: string) => void }): Promise<string[] | null> {
     const known = 'id' in asked ? this.renamed.get(asked.id) : undefined
     const operation = known === undefined ? asked : ({ ...asked, id: known } as Operation)
     const shown = this.drawing
@@ -163,7 +164,8 @@ export class Chart {
       else if (options.select !== false && operation.kind !== 'move') this.selectWhenThere(select)
       return select
     } catch (error) {
-      this.studio.tell((error as Error).message, 'refused')
+      if (options.refused) options.refused((error as Error).message)
+      else this.studio.tell((error as Error).message, 'refused')
       this.store.set((state) => ({ refusals: state.refusals + 1 }))
       return null
     }

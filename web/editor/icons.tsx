@@ -49,6 +49,8 @@ const PATHS: Record<string, string> = {
   channel: 'M4.5 5.500h7a2.5 2.5 0 0 1 0 5h-7a2.5 2.5 0 0 1 0-5Z',
   sensor: 'M2.5 5h7v6h-7zM11 8h3M12.5 6.500L14 8l-1.5 1.5',
   actuator: 'M6.5 5h7v6h-7zM2 8h4.500M5 6.500L6.5 8 5 9.5',
+  up: 'M4.5 9.500L8 6l3.5 3.500',
+  lower: 'M4.5 6.500L8 10l3.5-3.500',
   cursor: 'M4 2.800l8.2 5.2-3.7.8-1.8 3.500z',
   trash: 'M3.5 4.500h9M6.5 4.500v-2h3v2M4.8 4.500l.6 9h5.200l.6-9M6.8 7v4M9.2 7v4',
   warning: 'M8 2.800l6 10.400H2zM8 6.500v3.300M8 11.500v.2',

@@ -3,7 +3,7 @@
 // Owns: the list of jobs, newest first, and what their lines say: verdicts with counterexamples, results of scenarios, faults.
 // In: `studio/line` and `studio/done`. Out: a store.
 
-import type { File, JobKind } from '../diagram/protocol'
+import type { File, Followed, JobKind } from '../diagram/protocol'
 import type { RunStep } from '../diagram/light'
 import type { Fault } from '../diagram/pick'
 import { Store } from './store'
@@ -37,8 +37,11 @@ export interface Job {
   running: boolean
   code: number | null
   began: number
+  options: object
   lines: (string | Record<string, unknown>)[]
   progress: string | null
+  // What a program that runs does now.
+  followed: Followed | null
 }
 
 export interface JobsState {
@@ -62,7 +65,7 @@ export class Jobs {
     studio.server.on<{ job: number; code: number | null }>('studio/done', ({ job, code }) => this.done(job, code))
   }
 
-  async start(job: JobKind, file: File, options: { time?: number; first?: boolean } = {}): Promise<void> {
+  async start(job: JobKind, file: File, options: { time?: number; first?: boolean; seconds?: number; pace?: string } = {}): Promise<void> {
     await this.studio.saveAll()
     try {
       const params = { job, path: file.path, options }
@@ -71,7 +74,7 @@ export class Jobs {
       this.early.delete(id)
       const code = this.ended.get(id)
       this.ended.delete(id)
-      const fresh: Job = { id, job, file, running: code === undefined, code: code ?? null, began: Date.now(), lines, progress: null }
+      const fresh: Job = { id, job, file, running: code === undefined, code: code ?? null, began: Date.now(), lines, progress: null, followed: null, options }
       this.store.set((state) => ({ jobs: [fresh, ...state.jobs].slice(0, 30), shown: id, playing: null }))
       this.studio.store.set({ panel: 'check' })
       if (code !== undefined) this.after(fresh)
@@ -99,6 +102,7 @@ export class Jobs {
       return
     }
     const progress = typeof line === 'object' && line['type'] === 'progress' ? told(line) : null
+    if (typeof line === 'object' && line['type'] === 'followed') return void this.update(id, () => ({ followed: line as unknown as Followed }))
     this.update(id, (job) => (progress === null ? { lines: [...job.lines, line].slice(-KEPT) } : { progress }))
   }
 
@@ -113,7 +117,7 @@ export class Jobs {
 
   private after(job: Job): void {
     this.studio.find(this.findings(job))
-    if (job.job === 'build' || job.job === 'generate') this.studio.redraw()
+    if (job.job === 'build' || job.job === 'generate' || job.job === 'program') this.studio.redraw()
     this.waiting.get(job.id)?.(job)
     this.waiting.delete(job.id)
   }

@@ -121,9 +121,11 @@ const STYLE = HighlightStyle.define([
   { tag: tags.bracket, color: 'var(--soft)' },
 ])
 
+export const styles: Extension = syntaxHighlighting(STYLE)
+
 export function coloured(kind: Kind): Extension {
   const known = kind === 'model' || kind === 'scenario' || kind === 'chart' ? LANGUAGES[kind] : null
-  return [known ?? [], syntaxHighlighting(STYLE)]
+  return [known ?? [], styles]
 }
 
 // What the language client calls it.

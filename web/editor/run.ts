@@ -25,6 +25,13 @@ export interface RunState {
   // Terms with their values in this state.
   values: ReadonlyMap<string, string | null>
   seed: number | null
+  // A file of inputs that the run takes.
+  recorded: RecordedInputs | null
+}
+
+export interface RecordedInputs {
+  name: string
+  text: string
 }
 
 const NONE: RunState = {
@@ -38,6 +45,7 @@ const NONE: RunState = {
   broke: null,
   values: new Map(),
   seed: null,
+  recorded: null,
 }
 
 const FAST_STEPS = 200
@@ -48,17 +56,18 @@ export class Runner {
   private steps: Recorded[] = []
   private given: [string, string][] = []
   private readonly offered = new Map<string, string[]>()
+  private readonly ends = new Map<string, [number, number]>()
 
   constructor(private readonly studio: Studio) {}
 
   // Begins a run of a model or a scenario.
-  async open(file: File, seed: number | null = null): Promise<void> {
+  async open(file: File, seed: number | null = null, recorded: RecordedInputs | null = null): Promise<void> {
     await this.close()
-    this.store.set({ busy: true, file, seed })
+    this.store.set({ busy: true, file, seed, recorded })
     this.studio.store.set({ panel: 'run' })
     this.studio.besideModel(file.uri)
     try {
-      const params = { textDocument: { uri: file.uri }, ...(seed === null ? {} : { seed }) }
+      const params = { textDocument: { uri: file.uri }, ...(seed === null ? {} : { seed }), ...(recorded === null ? {} : { inputs: recorded }) }
       const session = await this.studio.ask<SessionState>('groundstate/session/open', params)
       this.steps = []
       this.given = []
@@ -77,7 +86,13 @@ export class Runner {
     return this.offered.get(location) ?? []
   }
 
+  // The ends of an input's domain, as they were told when it was asked for.
+  bounds(location: string): [number, number] | null {
+    return this.ends.get(location) ?? null
+  }
+
   private took(session: SessionState): void {
+    if (session.waiting === 'input' && session.word && session.bounds) this.ends.set(session.word, session.bounds)
     if (session.waiting === 'input' && session.word && session.offered.length > 0) this.offered.set(session.word, session.offered)
     this.store.set({ session })
     if (session.refused) this.studio.tell(session.refused, 'refused')
@@ -229,8 +244,21 @@ export class Runner {
   }
 
   async restart(): Promise<void> {
-    const { file, seed } = this.store.get()
-    if (file) await this.open(file, seed)
+    const { file, seed, recorded } = this.store.get()
+    // A file of inputs may be another by now.
+    const inputs = recorded && (await this.inputs(recorded.name))
+    if (file) await this.open(file, seed, inputs ?? recorded)
+  }
+
+  // The text of a file of inputs.
+  async inputs(file: string): Promise<RecordedInputs | null> {
+    try {
+      const { text } = await this.studio.server.request<{ text: string }>('studio/inputs', { file })
+      return { name: file, text }
+    } catch (error) {
+      this.studio.tell((error as Error).message, 'refused')
+      return null
+    }
   }
 
   async close(): Promise<void> {

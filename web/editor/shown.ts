@@ -3,8 +3,9 @@
 import { useMemo } from 'react'
 
 import { controlOf, frames, lit, stateOf } from '../diagram/light'
-import type { Drawing } from '../diagram/protocol'
-import { verdicts } from './jobs'
+import type { Drawing, Followed } from '../diagram/protocol'
+import { type JobsState, verdicts } from './jobs'
+import { statesOf } from './ProgramResult'
 import { guardTerms } from './run'
 import { useStore } from './store'
 import type { Studio } from './studio'
@@ -42,19 +43,23 @@ export function useFrame(studio: Studio) {
   }, [jobs, playing])
 }
 
+// What the program that runs does, if one does.
+const runningProgram = (state: JobsState): Followed | null => state.jobs.find((job) => job.running && job.followed)?.followed ?? null
+
 export function useShownRun(studio: Studio, drawing: Drawing): ShownRun {
   const session = useStore(studio.runner.store, (state) => state.session)
   const values = useStore(studio.runner.store, (state) => state.values)
   const breaks = useStore(studio.runner.store, (state) => state.breaks)
   const played = useFrame(studio)
+  const followed = useStore(studio.jobs.store, runningProgram)
   return useMemo(() => {
-    const state = played ? played.frame.state : session ? stateOf(session) : new Map<string, string>()
+    const state = followed ? statesOf(followed) : played ? played.frame.state : session ? stateOf(session) : new Map<string, string>()
     const guards = new Map<string, string>()
     const broken = new Set<string>()
     for (const box of drawing.picture.boxes) {
       const term = breakTerm(drawing, box.id)
       if (term !== null && breaks.includes(term)) broken.add(box.id)
-      if (!session || played) continue
+      if (!session || played || followed) continue
       const known = guardTerms(drawing, box, session)
         .map(({ term }) => values.get(term))
         .filter((value) => value !== undefined && value !== null)
@@ -62,5 +67,5 @@ export function useShownRun(studio: Studio, drawing: Drawing): ShownRun {
       if (first !== undefined) guards.set(box.id, known.every((value) => value === first) ? first : 'mixed')
     }
     return { lit: lit(drawing, state), values: guards, breaks: broken, lines: NO_LINES }
-  }, [breaks, drawing, played, session, values])
+  }, [breaks, drawing, followed, played, session, values])
 }

@@ -22,7 +22,7 @@ import type { Server, Transport } from './server'
 import { Store } from './store'
 
 export type Layout = 'both' | 'picture' | 'text'
-export type Panel = 'problems' | 'run' | 'timeline' | 'check'
+export type Panel = 'problems' | 'run' | 'timeline' | 'check' | 'times' | 'code'
 export type Dialog =
   | { kind: 'search' }
   | { kind: 'new' }

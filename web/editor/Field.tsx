@@ -1,0 +1,57 @@
+// A field with its label: committed by Enter or by leaving it.
+//
+// In: a value. Out: what was typed instead. A commit that is refused puts the value back.
+
+import { type FormEvent, type ReactNode, useEffect, useId, useState } from 'react'
+
+interface FieldProps {
+  name: string
+  label: string
+  value: string
+  placeholder?: string
+  mono?: boolean
+  readOnly: boolean
+  list?: string
+  commit: (value: string) => Promise<boolean>
+  focused?: () => void
+}
+
+// A field that is committed by Enter or by leaving it, and goes back if the commit is refused.
+export function TextField({ name, label, value, placeholder, mono, readOnly, list, commit, focused }: FieldProps): ReactNode {
+  const id = useId()
+  const [text, setText] = useState(value)
+  useEffect(() => setText(value), [value])
+  const send = async (): Promise<void> => {
+    const next = text.trim()
+    if (next === value) return setText(value)
+    if (!(await commit(next))) setText(value)
+  }
+  const submit = (event: FormEvent): void => {
+    event.preventDefault()
+    void send()
+  }
+  return (
+    <form className="field" onSubmit={submit}>
+      <label htmlFor={id}>{label}</label>
+      <input
+        id={id}
+        name={name}
+        className={mono ? 'mono' : undefined}
+        value={text}
+        placeholder={placeholder}
+        readOnly={readOnly}
+        list={list}
+        spellCheck={false}
+        autoComplete="off"
+        onFocus={focused}
+        onChange={(event) => setText(event.target.value)}
+        onBlur={() => void send()}
+        onKeyDown={(event) => {
+          if (event.key !== 'Escape') return
+          setText(value)
+          event.currentTarget.closest<HTMLElement>('.editor')?.querySelector<HTMLElement>('.canvas')?.focus()
+        }}
+      />
+    </form>
+  )
+}
