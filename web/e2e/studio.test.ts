@@ -308,7 +308,7 @@ test('the times of a system are told as a table, with what cannot hold', async (
   await row.waitFor({ timeout: 40_000 })
   expect(await row.innerText()).toMatch(/1 ms\s+0.4 ms\s+0.40\s+0.2 ms\s+0.6 ms\s+1 ms\s+meets/)
   await page.locator('.times tr', { hasText: 'classifier' }).getByText('8.6..20.6 ms').waitFor()
-  await page.locator('.fault-told', { hasText: 'more than there are' }).waitFor()
+  await page.locator('.times-now .note', { hasText: 'more than there are' }).waitFor()
   await shot(page, 'times')
 })
 

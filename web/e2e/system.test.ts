@@ -231,6 +231,7 @@ test('inputs have sliders and switches, and come from a file', async () => {
   await open('Gauge.asm')
   await panel('Run')
   await page.locator('.panel').getByRole('button', { name: 'Run Gauge.asm' }).click()
+  await page.locator('.state-table').waitFor()
   await page.keyboard.press('F10')
   // A truth value has a button for each, a number a slider.
   await page.locator('.asked').getByRole('button', { name: 'true' }).click()

@@ -63,12 +63,17 @@ export function TimesPanel({ studio, chart }: { studio: Studio; chart: Chart }):
           <SystemNumbers studio={studio} chart={chart} id={drawing.name} system={drawing.system} />
         </section>
       )}
-      <div className={reason === null ? 'times-now' : 'times-now stale'}>
+      <div className={reason === null ? 'times-now' : 'times-now stale'} tabIndex={0}>
         {reason !== null && (
           <p className="note warning" role="status">
             {times ? words.system.former : words.system.noTimes} {reason}
           </p>
         )}
+        {times?.told?.map((sentence) => (
+          <p key={sentence} className="note warning">
+            {sentence}
+          </p>
+        ))}
         {times && <TimesTables all={[times]} />}
       </div>
     </div>

@@ -232,6 +232,8 @@ export interface SystemTimes {
   load: number
   tasks: TaskTimes[]
   ages: AgeTimes[]
+  // What cannot hold on one processor, while a chart does not say how many there are.
+  told?: string[]
 }
 
 export const timesOf = (job: Job): SystemTimes[] =>

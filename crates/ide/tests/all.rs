@@ -7,3 +7,4 @@ mod keys;
 mod pages;
 mod refactor;
 mod support;
+mod system;

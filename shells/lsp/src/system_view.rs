@@ -6,7 +6,7 @@
 
 use std::collections::BTreeMap;
 
-use chart::times::{Platform, times as analysed};
+use chart::times::{Platform, times as analysed, told as warnings};
 use ide::{Operation, Property};
 use serde_json::{Map, Value, json};
 use syntax::ast::{AstNode, ChartFile, Component, PhaseKind, SystemChart};
@@ -25,7 +25,12 @@ pub fn times(answers: &mut Answers, path: &str) -> Result<Value, Refused> {
     }
     let Some(system) = &loaded.chart.system else { return Ok(Value::Null) };
     let times = analysed(system, Platform::of(system));
-    serde_json::to_value(TimesTold::of(system, &times)).map_err(|error| Refused::failed(error.to_string()))
+    let mut told =
+        serde_json::to_value(TimesTold::of(system, &times)).map_err(|error| Refused::failed(error.to_string()))?;
+    // If the chart says how many processors there are, these are faults of the chart.
+    let wrong = if system.processors.is_none() { warnings(system, &times, system.span) } else { Vec::new() };
+    told["told"] = wrong.iter().map(|fault| Value::from(fault.message.clone())).collect();
+    Ok(told)
 }
 
 /// What the text says of each system, by its name.

@@ -37,6 +37,16 @@ fn is_shown(name: &str) -> bool {
     is_code && !NOT_SHOWN.iter().any(|folder| inside(folder))
 }
 
+/// Whether C++ and what is built of it may be written: no link of the folder leads out of the project.
+///
+/// # Errors
+/// One does, or the path is neither a chart nor a model; a sentence.
+pub fn may_be_written(folder: &Folder, path: &str) -> Result<(), String> {
+    let home = folder_of(path)?;
+    let parts = ["", "/generated", "/generated/machines", "/generated/include", "/runtime", "/build"];
+    parts.iter().try_for_each(|part| folder.place(&format!("{home}{part}")).map(|_| ()))
+}
+
 /// The text of one of its files.
 ///
 /// # Errors

@@ -94,6 +94,9 @@ pub fn answer(
             if matches!(job, "build" | "generate" | "program") {
                 writable(studio)?;
             }
+            if matches!(job, "generate" | "program") {
+                generated::may_be_written(&studio.folder, path)?;
+            }
             if job == "program" {
                 let plan = Plan::of(path, &params["options"])?;
                 let own = Arc::clone(studio);

@@ -9,4 +9,5 @@
 mod attack;
 mod beside;
 mod browser;
+mod system;
 mod work;

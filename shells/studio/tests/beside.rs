@@ -145,6 +145,24 @@ fn nothing_but_generated_code_is_read() {
     assert_eq!(tab.ask("studio/generated", json!({ "path": "b.asm" })).expect("listed")["state"], "none");
 }
 
+#[cfg(unix)]
+#[test]
+fn nothing_is_generated_or_built_through_a_link_that_leads_out() {
+    use std::os::unix::fs::symlink;
+    let running = Running::over(&[("a.chart", "chart A\n"), ("b.chart", "chart B\n"), ("b.generated/main.cpp", "")]);
+    symlink(running.place.path(), running.folder().join("a.generated")).expect("linked");
+    symlink(running.place.path(), running.folder().join("b.generated/build")).expect("linked");
+    let mut tab = running.tab();
+    for path in ["a.chart", "b.chart"] {
+        for job in ["generate", "program"] {
+            let refused = tab.ask("studio/job", json!({ "job": job, "path": path })).expect_err("it is refused");
+            assert!(refused.contains("is no file of this folder"), "{job} {path}: {refused}");
+        }
+    }
+    let refused = tab.ask("studio/job", json!({ "job": "program", "path": "../a.chart" }));
+    assert!(refused.is_err(), "{refused:?}");
+}
+
 #[test]
 fn files_of_inputs() {
     let running = Running::over(&[

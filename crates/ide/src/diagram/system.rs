@@ -11,7 +11,6 @@ use syntax::ast::{
 use syntax::{FileId, Severity, SyntaxNode, SyntaxToken, parse_chart};
 
 use super::arrow::words;
-use super::name::is_name;
 use super::{Section, Work};
 
 /// A property of a part of a system.
@@ -117,11 +116,14 @@ fn number(value: &str) -> Result<String, String> {
     }
 }
 
+/// A name of something that is there, or of a phase. Words of charts may be names where a name is expected; whether one is, shows what
+/// the text then says ([`Work::says`]).
 fn name(value: &str) -> Result<String, String> {
     let value = value.trim();
-    match is_name(value) {
+    let begins = value.starts_with(|c: char| c.is_ascii_alphabetic());
+    match begins && value.bytes().all(|byte| byte.is_ascii_alphanumeric() || byte == b'_') {
         true => Ok(value.to_string()),
-        false => Err(format!("`{value}` is no name: a letter first, then letters, digits and _; no word of charts")),
+        false => Err(format!("`{value}` is no name: a letter first, then letters, digits and _")),
     }
 }
 
@@ -163,6 +165,33 @@ impl Work {
     /// See [`super::Operation::Set`].
     pub(super) fn set(&mut self, id: &str, property: Property, value: Option<&str>) -> Result<(), String> {
         self.select = vec![id.to_string()];
+        self.change(id, property, value)?;
+        match (property, value.map(str::trim).filter(|value| !value.is_empty())) {
+            (Property::Awaits | Property::Master | Property::PhaseName(_) | Property::PhaseMachine(_), Some(value))
+                if self.says(id, property)?.as_deref() != Some(value) =>
+            {
+                Err(format!("`{value}` cannot stand here: it is a word of charts"))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// The name that a property has in the text.
+    fn says(&self, id: &str, property: Property) -> Result<Option<String>, String> {
+        let found = match property {
+            Property::Awaits => self.timing(id)?.awaits(),
+            Property::Master => self.channel_kind(id)?.master(),
+            Property::PhaseName(at) => {
+                let phase = self.phase(id, at)?;
+                phase.name().or_else(|| phase.subject())
+            }
+            Property::PhaseMachine(at) => self.phase(id, at)?.machine(),
+            _ => None,
+        };
+        Ok(found.map(|token| token.text().to_string()))
+    }
+
+    fn change(&mut self, id: &str, property: Property, value: Option<&str>) -> Result<(), String> {
         let fixed = |value: &str| length(value, false);
         match property {
             Property::Timing => self.set_timing(id, value.unwrap_or_default()),
@@ -446,7 +475,14 @@ impl Work {
             PhaseKind::Elaborate => format!("elaborate {subject}"),
         };
         self.select = vec![id.to_string()];
-        self.add_phase(id, &line, kind == PhaseKind::Read)
+        let before = self.component(id)?.phases().count();
+        self.add_phase(id, &line, kind == PhaseKind::Read)?;
+        let phases = self.component(id)?.phases();
+        let is_there = phases.clone().any(|phase| phase.subject().is_some_and(|own| own.text() == subject));
+        match phases.count() == before + 1 && is_there {
+            true => Ok(()),
+            false => Err(format!("`{subject}` cannot stand here: it is a word of charts")),
+        }
     }
 
     /// See [`super::Operation::RemovePhase`].

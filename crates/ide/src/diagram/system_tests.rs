@@ -120,6 +120,12 @@ fn what_is_no_value_is_refused() {
     assert_eq!(told(&set("seen", Property::Domain, "Integer from a")), "`Integer from a` is no domain");
     assert_eq!(told(&set("look", Property::PhaseMachine(1), "M")), "only an elaboration is done by a machine");
     assert!(told(&set("act", Property::Awaits, "a b")).starts_with("`a b` is no name"));
+    // A word of charts may be a name; where it would be read as that word, it is refused.
+    assert!(after(&set("act", Property::Awaits, "state")).is_ok_and(|text| text.contains("awaits state\n")));
+    for word in ["endcomponent", "endsystem"] {
+        let _ = told(&set("act", Property::Awaits, word));
+        let _ = told(&Operation::AddPhase("act".into(), PhaseKind::Elaborate, word.into()));
+    }
     assert_eq!(told(&set("none", Property::Period, "1 ms")), "there is no component `none`");
     assert_eq!(told(&set("look", Property::Size, "1")), "there is no channel `look`");
 }
