@@ -59,7 +59,7 @@ web: web/node_modules/.package-lock.json ## the studio's front end: types and th
 # What drives the browser needs Node 20; Debian 12 has 18.
 studio-full: web/dist/index.html $(TESTED) ## the studio in Debian's Chromium: every view, light and dark, its faults of accessibility
 	@if node -e 'process.exit(+process.versions.node.split(".")[0] < 20 ? 1 : 0)'; then \
-	    sh cpp/install.sh chromium && cd web && GROUNDSTATE=$(CURDIR)/$(TESTED) npm run e2e; \
+	    sh cpp/install.sh chromium cmake && cd web && GROUNDSTATE=$(CURDIR)/$(TESTED) npm run e2e; \
 	else echo "studio-full: not tried: Node 20 is not installed"; fi
 
 bench-studio: web/dist/index.html $(GROUNDSTATE) ## the studio's first picture, frames, and the time from a letter to its fault

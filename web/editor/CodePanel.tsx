@@ -138,30 +138,19 @@ function Actions({ studio, source, program }: { studio: Studio; source: File | n
   )
 }
 
-const AFTER_MS = 500
-
 // Looks again when it may be another, and follows what is selected in the model.
 function useFollowing(studio: Studio, code: Code, active: string | null, ended: number): void {
   useEffect(() => void code.look(active), [code, active, ended])
-  const faults = useStore(studio.store, (state) => state.opened)
+  const opened = useStore(studio.store, (state) => state.opened)
   useEffect(() => {
-    let timer: ReturnType<typeof setTimeout> | undefined
-    const again = (): void => {
-      clearTimeout(timer)
-      timer = setTimeout(() => void code.look(studio.store.get().active), AFTER_MS)
-    }
     const stops = studio.openDocs.flatMap((doc) => {
-      const saved = doc.store.subscribe(again)
+      const saved = doc.store.subscribe(() => code.later())
       const cursor = (at: { line: number; character: number }): void => void code.select(doc.file.uri, at)
       doc.onCursor.push(cursor)
       return [saved, () => (doc.onCursor = doc.onCursor.filter((known) => known !== cursor))]
     })
-    studio.server.on('studio/changed', again)
-    return () => {
-      clearTimeout(timer)
-      stops.forEach((stop) => stop())
-    }
-  }, [studio, code, active, faults])
+    return () => stops.forEach((stop) => stop())
+  }, [studio, code, active, opened])
   // Shapes that are selected on the canvas.
   useEffect(() => {
     const chart = studio.chart(active)
@@ -176,7 +165,7 @@ function useFollowing(studio: Studio, code: Code, active: string | null, ended: 
       if (!first || !drawingAt([drawing], first.start)) return
       void code.select(chart.doc.file.uri, nameOf(chart, selection) ?? first.start)
     })
-  }, [studio, code, active, faults])
+  }, [studio, code, active, opened])
 }
 
 // A component's class stands for its name.

@@ -30,13 +30,26 @@ export interface CodeState {
   revealed: number
 }
 
+const AFTER_MS = 500
+
 const NONE: CodeState = { uri: null, generated: null, refused: null, file: null, text: '', marked: [], revealed: 0 }
 
 export class Code {
   readonly store = new Store<CodeState>(NONE)
   private asked = 0
+  private timer: ReturnType<typeof setTimeout> | undefined
 
-  constructor(private readonly studio: Studio) {}
+  constructor(private readonly studio: Studio) {
+    studio.server.on('studio/changed', () => this.later())
+  }
+
+  // Looks again when the texts have come to rest.
+  later(): void {
+    clearTimeout(this.timer)
+    this.timer = setTimeout(() => {
+      if (this.studio.store.get().panel === 'code') void this.look(this.studio.store.get().active)
+    }, AFTER_MS)
+  }
 
   private path(uri: string): string | null {
     const file = this.studio.file(uri)

@@ -9,6 +9,7 @@ mod dap_points;
 mod documented;
 mod first_steps;
 mod fmt;
+mod followed;
 mod input_pages;
 mod interrupts;
 mod lsp;
