@@ -21,9 +21,12 @@ export function move(drawing: Drawing, by: ReadonlyMap<string, Point>): Operatio
   return Object.keys(places).length > 0 ? { kind: 'move', places } : null
 }
 
+// What changes properties leaves the places to the layout, if the text has none.
+const UNPLACED: Operation['kind'][] = ['layout', 'machine', 'set', 'addPhase', 'removePhase', 'movePhase', 'addAge']
+
 // Where all shapes are, for an operation on a drawing that has no places in the text: so that nothing else moves.
 export function kept(drawing: Drawing, operation: Operation): { places?: Record<string, [number, number]> } {
-  if (drawing.placed || ['layout', 'machine', 'set', 'addAge'].includes(operation.kind)) return {}
+  if (drawing.placed || UNPLACED.includes(operation.kind)) return {}
   const all = drawing.picture.boxes.filter((box) => box.figure !== 'exit')
   const middle = (box: Box): [number, number] => [rounded(centre(box)[0]), rounded(centre(box)[1])]
   return { places: Object.fromEntries(all.map((box) => [box.id, middle(box)])) }

@@ -117,7 +117,7 @@ function OneBox({ studio, chart, drawing, box, naming }: OneBoxProps): ReactNode
       {!ends && (
         <TextField name="name" label={words.inspector.name} value={box.id} mono readOnly={readOnly || !box.nameRange} commit={rename} />
       )}
-      {!ends && (
+      {!ends && box.figure !== 'channel' && (
         <TextField
           name="text"
           label={words.inspector.text}
