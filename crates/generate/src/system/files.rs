@@ -5,7 +5,7 @@ use std::fmt::Write;
 
 use chart::system::{Action, Component, System};
 
-use super::names::{hook, member, pascal};
+use super::names::{datum, hook, member, pascal};
 
 pub(super) fn data(system: &System, space: &str) -> String {
     let mut text = format!(
@@ -15,7 +15,7 @@ pub(super) fn data(system: &System, space: &str) -> String {
     );
     for channel in system.channels.iter().filter(|channel| channel.message.is_none()) {
         let (from, to) = (&system.components[channel.from].name, &system.components[channel.to].name);
-        let _ = write!(text, "\n/// From {from} to {to}.\nstruct {} {{\n}};\n", pascal(&channel.name));
+        let _ = write!(text, "\n/// From {from} to {to}.\nstruct {} {{\n}};\n", datum(system, &channel.name));
     }
     let _ = writeln!(text, "\n}}  // namespace {space}");
     text

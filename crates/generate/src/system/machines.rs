@@ -10,7 +10,7 @@ use std::fmt::Write;
 use chart::system::{Action, Component, Device, System};
 use chart::{ComponentMachine, Content, Feed, Take};
 
-use super::names::{hook, member, pascal};
+use super::names::{datum, hook, member, pascal};
 use super::plan::{Form, MachineClass, numbers, places};
 
 /// Whether the chart says what some channel or device carries.
@@ -70,7 +70,7 @@ pub(super) fn messages(system: &System, file: &str, space: &str) -> String {
         let _ = write!(
             text,
             "\n/// From {from} to {to}.\nstruct {} {{\n    {} value{{}};\n    bool known = true;  ///< false: undef, whatever the value\n}};\n",
-            pascal(&channel.name),
+            datum(system, &channel.name),
             type_of(content)
         );
     }

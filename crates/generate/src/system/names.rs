@@ -1,5 +1,8 @@
 //! Turns names of the chart into C++ names: types in PascalCase, functions in snake_case.
 
+use chart::Content;
+use chart::system::System;
+
 use crate::names::{is_reserved, snake};
 
 /// `camera_to_vs` as `CameraToVs`, `visionSystem` as `VisionSystem`.
@@ -7,6 +10,15 @@ pub(super) fn pascal(name: &str) -> String {
     let parts = name.split('_').filter(|part| !part.is_empty());
     let joined: String = parts.map(|part| part[..1].to_uppercase() + &part[1..]).collect();
     member(&joined)
+}
+
+/// The type of a channel's data: its name, or `PositionDatum` where a domain of the data or a component makes the type `Position`.
+pub(super) fn datum(system: &System, channel: &str) -> String {
+    let made = pascal(channel);
+    let mut enums = system.computing.contents.values().flat_map(Content::enums);
+    let is_taken = enums.any(|(name, _)| member(name) == made)
+        || system.components.iter().any(|component| pascal(&component.name) == made);
+    if is_taken { format!("{made}Datum") } else { made }
 }
 
 /// A name as that of a member; a `_` is appended if the name has a meaning in C++.

@@ -5,7 +5,7 @@ use chart::system::{Action, System};
 use chart::{Content, Feed, Take};
 use syntax::{Diagnostic, Span};
 
-use super::names::pascal;
+use super::names::{datum, pascal};
 use crate::fault::not_generated;
 use crate::names::snake;
 
@@ -78,9 +78,9 @@ pub fn ungenerated(system: &System) -> Vec<Diagnostic> {
         }
         types.push((super::machines::name(component), component.span));
     }
-    let all = system.channels.iter().map(|channel| (&channel.name, channel.span));
-    for (name, span) in all.chain(system.components.iter().map(|component| (&component.name, component.span))) {
-        let made = pascal(name);
+    let channels = system.channels.iter().map(|channel| (&channel.name, datum(system, &channel.name), channel.span));
+    let components = system.components.iter().map(|one| (&one.name, pascal(&one.name), one.span));
+    for (name, made, span) in channels.chain(components) {
         match types.iter().find(|(known, _)| *known == made) {
             Some(_) => faults.push(not_generated(
                 span,
