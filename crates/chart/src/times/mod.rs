@@ -144,7 +144,7 @@ pub fn times(system: &System, platform: Platform) -> Times {
         verdict: analysis.verdict(index),
     });
     let tasks: Vec<TaskTimes> = tasks.collect();
-    let load = loads.iter().flatten().map(|load| load.min(1.0)).sum();
+    let load = loads.iter().flatten().sum();
     let ages = ages::ages(system, &analysis);
     Times { platform, tasks, load, overloaded, ages }
 }
