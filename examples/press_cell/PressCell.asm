@@ -5,9 +5,10 @@ asm PressCell
 import StandardLibrary
 import CTLLibrary
 import LTLLibrary
+import ../../library/std/StandardLibrary
+import ../../library/patterns/ControlTask
 import PressData
-import patterns/ControlTask
-import patterns/DataAges
+import ../../library/patterns/DataAges
 
 signature:
 	static gauge: Scheduler

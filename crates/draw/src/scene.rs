@@ -5,7 +5,7 @@
 
 use std::collections::BTreeSet;
 
-use chart::{Chart, Composite, End, Machine, ShapeId, ShapeKind};
+use chart::{Chart, Composite, End, Link, Machine, ShapeId, ShapeKind};
 
 use crate::measure::{SMALL, SMALL_LEADING, TEXT, extent, in_circle, link_width, text_width, wrapped};
 use crate::picture::{Detail, Figure};
@@ -199,12 +199,49 @@ fn node(chart: &Chart, machine: &Machine, id: ShapeId, radius: f64) -> Node {
         details,
         place: None,
         inside: None,
-        link: link.map(|link| format!("{{{}}}", link.name)),
+        link: link.map(|link| format!("{{{}}}", shown(link, &shape.kind))),
         // Even, so that the middle lies on a whole pixel and straight arrows are straight.
         width: 2.0 * (width / 2.0).ceil(),
         height: 2.0 * (height / 2.0).ceil(),
         initial: shape.is_initial(),
     }
+}
+
+/// LIMIT: a longer predicate is shown without arguments; if it is too long then, too, by its first name.
+const PREDICATE: usize = 40;
+
+/// What a picture shows of a link: of a guard the whole predicate, else a name.
+fn shown(link: &Link, kind: &ShapeKind) -> String {
+    match kind {
+        ShapeKind::Guard if link.is_application || link.text == link.name => link.name.clone(),
+        ShapeKind::Guard => {
+            let fits = |text: &String| text.chars().count() <= PREDICATE;
+            let forms = [link.text.clone(), without_arguments(&link.text)];
+            forms.into_iter().find(fits).unwrap_or_else(|| format!("{} \u{2026}", link.name))
+        }
+        _ => link.name.clone(),
+    }
+}
+
+/// `action(currentPhase($c)) = WRITING` as `action(…) = WRITING`.
+fn without_arguments(text: &str) -> String {
+    let mut out = String::new();
+    let mut depth = 0;
+    for letter in text.chars() {
+        let is_name = out.ends_with(|before: char| before.is_alphanumeric() || before == '_');
+        match letter {
+            '(' if depth > 0 || is_name => {
+                if depth == 0 {
+                    out.push_str("(\u{2026})");
+                }
+                depth += 1;
+            }
+            ')' if depth > 0 => depth -= 1,
+            _ if depth == 0 => out.push(letter),
+            _ => {}
+        }
+    }
+    out
 }
 
 /// The room that the words of a composite state with so many details take above what lies in it.

@@ -252,8 +252,11 @@ pub(super) fn fresh(chart: &Chart, parts: &Parts) -> String {
         "/* Made from {0}.chart. The {decided} are written\n   anew from there; all else is kept. */\n{word} {0}\n\n",
         chart.name
     );
-    for import in &parts.imports {
-        let _ = writeln!(text, "import {}", quoted(import));
+    for (index, import) in parts.imports.iter().enumerate() {
+        // A chart may name what its parts bring anyway.
+        if !parts.imports[..index].contains(import) {
+            let _ = writeln!(text, "import {}", quoted(import));
+        }
     }
     if parts.main.is_none() {
         text.push_str("\nexport *\n");
