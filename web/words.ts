@@ -156,6 +156,7 @@ export const words = {
   spoken: {
     figure: {
       circle: 'State',
+      composite: 'Composite state',
       hexagon: 'Guard',
       rectangle: 'Action',
       block: 'Pattern',

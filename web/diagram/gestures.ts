@@ -14,7 +14,8 @@ export function move(drawing: Drawing, by: ReadonlyMap<string, Point>): Operatio
   const places: Record<string, [number, number]> = {}
   for (const box of drawing.picture.boxes) {
     const [dx, dy] = by.get(box.id) ?? [0, 0]
-    if (box.figure === 'exit' || (dx === 0 && dy === 0)) continue
+    // The frame of a composite state follows what lies in it.
+    if (box.figure === 'exit' || box.figure === 'composite' || (dx === 0 && dy === 0)) continue
     const [cx, cy] = centre(box)
     places[box.id] = [rounded(cx + dx), rounded(cy + dy)]
   }
@@ -27,13 +28,14 @@ const UNPLACED: Operation['kind'][] = ['layout', 'machine', 'set', 'addPhase', '
 // Where all shapes are, for an operation on a drawing that has no places in the text: so that nothing else moves.
 export function kept(drawing: Drawing, operation: Operation): { places?: Record<string, [number, number]> } {
   if (drawing.placed || UNPLACED.includes(operation.kind)) return {}
-  const all = drawing.picture.boxes.filter((box) => box.figure !== 'exit')
+  const all = drawing.picture.boxes.filter((box) => box.figure !== 'exit' && box.figure !== 'composite')
   const middle = (box: Box): [number, number] => [rounded(centre(box)[0]), rounded(centre(box)[1])]
   return { places: Object.fromEntries(all.map((box) => [box.id, middle(box)])) }
 }
 
 const SHAPES: Record<Figure, Shape | null> = {
   circle: 'state',
+  composite: null,
   hexagon: 'guard',
   rectangle: 'action',
   block: 'instance',

@@ -73,6 +73,7 @@ export interface Followed {
 
 export type Figure =
   | 'circle'
+  | 'composite'
   | 'hexagon'
   | 'rectangle'
   | 'block'

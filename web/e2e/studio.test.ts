@@ -400,3 +400,53 @@ test('the pattern library opens read only', async () => {
   await page.locator('.state-chip', { hasText: 'Read only' }).waitFor()
   expect(await page.locator('.palette').count()).toBe(0)
 })
+
+const CARRIER = `chart Carrier
+
+machine carrier "Carrier"
+	control mode
+	initial state stopped "Stopped"
+	composite state working "Working"
+		history
+		entry lampOn "LAMP ON"
+		initial state empty "Empty"
+		state loaded "Loaded"
+		guard grasped "Part grasped"
+		empty -> grasped yes -> loaded
+	endstate
+	guard started "Start pressed"
+	guard emergency "Emergency stop"
+	stopped -> started yes -> working
+	working -> emergency yes -> stopped
+endmachine
+`
+
+test('a composite state stands around its states, goes with them, and has none of their places', async () => {
+  writeFileSync(path('Carrier.chart'), CARRIER)
+  await open('Carrier.chart')
+  const around = async (inner: string): Promise<boolean> => {
+    const [frame, box] = [await shape(page, 'working').boundingBox(), await shape(page, inner).boundingBox()]
+    if (!frame || !box) return false
+    return frame.x < box.x && frame.y < box.y && frame.x + frame.width > box.x + box.width && frame.y + frame.height > box.y + box.height
+  }
+  await shape(page, 'loaded').waitFor()
+  for (const inner of ['empty', 'loaded', 'grasped']) expect(await around(inner), inner).toBe(true)
+  expect(await around('stopped')).toBe(false)
+  expect(await shape(page, 'working').textContent()).toContain('entry / LAMP ON')
+  await shot(page, 'composite')
+  // A state is moved within: the frame follows, and gets no place of its own.
+  const [x, y] = await middle(shape(page, 'loaded'))
+  await drag(page, [x, y], [x + 160, y + 20])
+  await has('Carrier.chart', /layout carrier[\s\S]*loaded at \d+, \d+/)
+  await until(() => around('loaded'), 'the frame around what was moved')
+  expect(file('Carrier.chart')).not.toContain('working at')
+  // It is taken by its name, and goes with all that it holds.
+  await page.locator('.react-flow__node[data-id="working"] text.name').click()
+  await page.locator('.inspector', { hasText: 'Composite state' }).waitFor()
+  await shot(page, 'composite-selected')
+  await page.keyboard.press('Delete')
+  await until(() => !file('Carrier.chart').includes('composite'), () => file('Carrier.chart'))
+  expect(file('Carrier.chart')).not.toMatch(/loaded|empty|working|grasped/)
+  await page.keyboard.press('Control+z')
+  await has('Carrier.chart', 'composite state working')
+})

@@ -68,7 +68,7 @@ export function CanvasBar({ chart, drawing }: { studio: Studio; chart: Chart; dr
 const EDGES: Edge[] = ['left', 'centre', 'right', 'top', 'middle', 'bottom']
 
 function Arrange({ chart, drawing, ids }: { chart: Chart; drawing: Drawing; ids: string[] }): ReactNode {
-  const rects = () => new Map(drawing.picture.boxes.filter((box) => ids.includes(box.id) && box.figure !== 'exit').map((box) => [box.id, box]))
+  const rects = () => new Map(drawing.picture.boxes.filter((box) => ids.includes(box.id) && box.figure !== 'exit' && box.figure !== 'composite').map((box) => [box.id, box]))
   const go = (moves: Moves): void => {
     const operation = move(drawing, moves)
     if (operation) void chart.operate(operation)

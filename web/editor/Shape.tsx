@@ -15,6 +15,7 @@ const RULE = 8
 
 const CLASSES = {
   circle: 'state',
+  composite: 'composite',
   hexagon: 'guard',
   rectangle: 'action',
   block: 'instance',
@@ -25,7 +26,7 @@ const CLASSES = {
   exit: 'end',
 } as const
 
-const ROUND = { block: 8, component: 4, channel: 1e9, device: 4 } as Record<string, number>
+const ROUND = { composite: 14, block: 8, component: 4, channel: 1e9, device: 4 } as Record<string, number>
 
 function Outline({ box }: { box: Box }): ReactNode {
   const { width, height } = box
@@ -42,6 +43,15 @@ function Outline({ box }: { box: Box }): ReactNode {
       const corners = hexagon({ x: 0, y: 0, width, height })
       return <polygon className={name} points={corners.map(([x, y]) => `${x},${y}`).join(' ')} />
     }
+    case 'composite':
+      return (
+        <>
+          <rect className={name} width={width} height={height} rx={14} />
+          {box.initial && (
+            <rect className="shape composite inner" x={3.5} y={3.5} width={width - 7} height={height - 7} rx={11} />
+          )}
+        </>
+      )
     case 'enter':
     case 'exit':
       return <circle className="grip" cx={width / 2} cy={height / 2} r={5} />
@@ -117,11 +127,30 @@ function Words({ box, row }: { box: Box; row: string | null }): ReactNode {
   )
 }
 
+// The words of a composite state stand at the top of its frame.
+function FrameWords({ box }: { box: Box }): ReactNode {
+  const details = box.lines.length
+  return (
+    <>
+      {box.lines.map((line, index) => (
+        <text key={index} className="name start" x={16} y={20 + index * SMALL_LEADING}>
+          {line}
+        </text>
+      ))}
+      {box.details.map((detail, index) => (
+        <text key={`detail ${index}`} className="small faint start" x={16} y={20 + (details + index) * SMALL_LEADING}>
+          {detail.text}
+        </text>
+      ))}
+    </>
+  )
+}
+
 export const Shape = memo(function Shape({ box, labels, row = null }: { box: Box; labels: Label[]; row?: string | null }): ReactNode {
   return (
     <svg className="figure" width={box.width} height={box.height} aria-hidden="true">
       <Outline box={box} />
-      <Words box={box} row={row} />
+      {box.figure === 'composite' ? <FrameWords box={box} /> : <Words box={box} row={row} />}
       {labels.map((label, index) => {
         const x = (label.isLink ? label.x : label.x + label.width / 2) - box.x
         const y = label.y + label.height - 3.5 - box.y

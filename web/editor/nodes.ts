@@ -88,7 +88,8 @@ export function useNodes(known: Known): ShapeNodeType[] {
       next.set(box.id, old)
       return old.node
     }
-    const movable = !known.readOnly && box.figure !== 'exit'
+    const frame = box.figure === 'composite'
+    const movable = !known.readOnly && box.figure !== 'exit' && !frame
     const node: ShapeNodeType = {
       id: box.id,
       type: 'shape',
@@ -103,7 +104,9 @@ export function useNodes(known: Known): ShapeNodeType[] {
       focusable: true,
       connectable: false,
       deletable: false,
-      zIndex: selected ? 2 : floats(box.figure) ? 0 : 1,
+      // A frame lies behind arrows and shapes, and is taken at its edge or its words.
+      zIndex: frame ? -2 : selected ? 2 : floats(box.figure) ? 0 : 1,
+      ...(frame && { style: { pointerEvents: 'none' as const } }),
       ariaLabel: names[index],
       data: {
         box,

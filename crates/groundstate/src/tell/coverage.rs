@@ -39,8 +39,10 @@ pub fn uncovered<'a>(sources: &Sources, items: &'a Items) -> Vec<Uncovered<'a>> 
         (!never.is_empty()).then(|| missing(&forall.rule, format!("forall with {}", never.join(" or ")), forall.span))
     }));
     // The parts of a rule that never ran say nothing more.
-    let dead: Vec<&str> = items.rules.iter().filter(|item| !item.covered).map(|item| item.rule.as_str()).collect();
-    all.retain(|missing| missing.what == "the whole" || !dead.contains(&missing.rule));
+    let place = |rule: &'a str, span: Span| (rule, span.file);
+    let dead = items.rules.iter().filter(|item| !item.covered).map(|item| place(&item.rule, item.span));
+    let dead: Vec<_> = dead.collect();
+    all.retain(|missing| missing.what == "the whole" || !dead.contains(&place(missing.rule, missing.span)));
     all.sort_by_key(|missing| missing.span);
     all
 }
