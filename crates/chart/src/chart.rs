@@ -139,6 +139,11 @@ impl Machine {
         self.flattened.as_deref().unwrap_or(self)
     }
 
+    /// Whether an action is told in the frame of a composite state: it is done when that is entered or left.
+    pub fn is_told_in_frame(&self, id: ShapeId) -> bool {
+        self.is_apart(id) && !self.aborts.contains(&id)
+    }
+
     /// Whether an action stands on no path: it is done when a composite state is entered or left, or a pattern is aborted.
     pub fn is_apart(&self, id: ShapeId) -> bool {
         let has = |composite: &Composite| composite.entry.contains(&id) || composite.exit.contains(&id);

@@ -108,7 +108,7 @@ fn reading_order(machine: &Machine) -> Vec<End> {
     let start = if machine.is_pattern { Some(End::Enter) } else { machine.initial().map(End::Shape) };
     let mut order = Vec::new();
     let mut seen = BTreeSet::new();
-    let rest = machine.numbered().filter(|(id, _)| !machine.is_apart(*id)).map(|(id, _)| End::Shape(id));
+    let rest = machine.numbered().filter(|(id, _)| !machine.is_told_in_frame(*id)).map(|(id, _)| End::Shape(id));
     for root in start.into_iter().chain(rest) {
         let mut open = vec![root];
         while let Some(end) = open.pop() {
@@ -175,7 +175,9 @@ fn node(chart: &Chart, machine: &Machine, id: ShapeId, radius: f64) -> Node {
             (Figure::Hexagon, lines, width + 2.0 * corner(height) + 12.0, height)
         }
         ShapeKind::Action => {
-            let lines = wrapped(&shape.text, 140.0);
+            let done =
+                if machine.aborts.contains(&id) { format!("abort / {}", shape.text) } else { shape.text.clone() };
+            let lines = wrapped(&done, 140.0);
             let (width, height) = extent(&lines);
             (Figure::Rectangle, lines, (width + 28.0).max(96.0), (height + 20.0).max(40.0))
         }

@@ -113,8 +113,9 @@ impl Reader {
         let shapes: Vec<&str> = match (&chart.system, chart.machines.iter().find(|machine| machine.name == name.text()))
         {
             (_, Some(machine)) => {
-                // A composite state is drawn around what lies in it; what stands on no path is a line of text.
-                let placed = machine.numbered().filter(|(id, one)| one.composite().is_none() && !machine.is_apart(*id));
+                // A composite state is drawn around what lies in it; entry and exit actions are lines of text.
+                let placed =
+                    machine.numbered().filter(|(id, one)| one.composite().is_none() && !machine.is_told_in_frame(*id));
                 let shapes = placed.map(|(_, shape)| shape.name.as_str());
                 machine.is_pattern.then_some("enter").into_iter().chain(shapes).collect()
             }

@@ -79,8 +79,7 @@ fn item_word(p: &Parser<'_>) -> Option<SyntaxKind> {
     let word = keyword(p, &ITEMS).filter(|_| p.peek(1) != ARROW)?;
     let leaves_a_guard = p.is_word_next("yes") || p.is_word_next("no");
     match word {
-        COMPOSITE_KW => p.is_word_next("state").then_some(word),
-        HISTORY_KW | ENTRY_KW | EXIT_KW | ABORT_KW => (!leaves_a_guard).then_some(word),
+        COMPOSITE_KW | HISTORY_KW | ENTRY_KW | EXIT_KW | ABORT_KW => (!leaves_a_guard).then_some(word),
         _ => Some(word),
     }
 }
@@ -158,8 +157,8 @@ fn composite(p: &mut Parser<'_>, initial: bool) {
     } else {
         p.bump_opener_as(COMPOSITE_KW, ENDSTATE_KW);
     }
-    if expect_word(p, STATE_KW, "behind `composite`") {
-        shape_name(p);
+    expect_word(p, STATE_KW, "behind `composite`");
+    if shape_name(p) {
         p.eat(STRING);
     }
     block(p, ENDSTATE_KW, item);
@@ -336,6 +335,59 @@ mod tests {
     }
 
     #[test]
+    fn composite_states() {
+        check(
+            "chart C machine m initial composite state a \"A\" history {f} entry b {r_b[]} exit c state d d -> g yes -> d endstate abort e history yes -> d endmachine",
+            expect![[r#"
+                chart
+                C
+                MACHINE_CHART(
+                  machine
+                  m
+                  COMPOSITE_STATE(
+                    initial
+                    composite
+                    state
+                    a
+                    "A"
+                    HISTORY(history LINK({ f }))
+                    ENTRY_ACTION(entry b LINK({ MACRO_CALL(r_b ARGUMENT_LIST([ ])) }))
+                    EXIT_ACTION(exit c)
+                    CONTROL_STATE(state d)
+                    CHART_PATH(PATH_STOP(d) -> PATH_STOP(g yes) -> PATH_STOP(d))
+                    endstate)
+                  ABORT_ACTION(abort e)
+                  CHART_PATH(PATH_STOP(history yes) -> PATH_STOP(d))
+                  endmachine)"#]],
+        );
+        // The end of the machine ends what was left open in it.
+        check(
+            "chart C machine m\n composite state a\n state b\nendmachine",
+            expect![[r#"
+            chart
+            C
+            MACHINE_CHART(
+              machine
+              m
+              COMPOSITE_STATE(composite state a CONTROL_STATE(state b))
+              endmachine)
+            !missing-end"#]],
+        );
+        check(
+            "chart C machine m\n composite a\n endstate\nendmachine",
+            expect![[r#"
+                chart
+                C
+                MACHINE_CHART(
+                  machine
+                  m
+                  COMPOSITE_STATE(composite a endstate)
+                  endmachine)
+                !expected-token"#]],
+        );
+    }
+
+    #[test]
     fn layouts() {
         check(
             "chart C layout m a at 10, -2.5 enter at 0, 0 endlayout",
@@ -362,9 +414,17 @@ mod tests {
             !expected-shape"#]],
         );
         // Wherever an item may start, every such word is passed over.
-        let blocks = ["machine m", "pattern p", "system s", "system s component c", "layout l", ""];
+        let blocks = [
+            "machine m",
+            "machine m composite state x",
+            "pattern p",
+            "system s",
+            "system s component c",
+            "layout l",
+            "",
+        ];
         for block in blocks {
-            for end in ["endmachine", "endpattern", "endsystem", "endcomponent", "endlayout"] {
+            for end in ["endmachine", "endpattern", "endstate", "endsystem", "endcomponent", "endlayout"] {
                 for rest in ["->", "-> A", "A ->", "at 1, 2", "yes ->", ""] {
                     crate::assert_invariants(format!("chart C {block} {end}{rest} {end} {rest} endlayout").as_bytes());
                     crate::assert_invariants(format!("{block} {end}{rest}").as_bytes());

@@ -66,7 +66,9 @@ pub(super) fn shape_name(p: &mut Parser<'_>) -> bool {
 
 /// The items of a block up to its last word, which is taken.
 pub(super) fn block(p: &mut Parser<'_>, end: SyntaxKind, mut item: impl FnMut(&mut Parser<'_>)) {
-    while !p.at(EOF) && keyword(p, &[end]).is_none() && !ends_block_around(p) {
+    // The end of the machine ends a composite state that was left open.
+    let outer = |p: &Parser<'_>| end == ENDSTATE_KW && keyword(p, &[ENDMACHINE_KW, ENDPATTERN_KW]).is_some();
+    while !p.at(EOF) && keyword(p, &[end]).is_none() && !ends_block_around(p) && !outer(p) {
         p.starts_anew();
         item(p);
     }
