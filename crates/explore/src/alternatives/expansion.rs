@@ -49,7 +49,8 @@ impl Expansion {
     /// Counts an alternative that leads to a state, perhaps to the same one.
     #[inline]
     pub(crate) fn arrive(&mut self, state: &[u64], next: &[u64], found: &mut Successors<'_>) {
-        if state == next {
+        // Word by word: a call to compare memory takes longer than a state of few words.
+        if state.iter().zip(next).all(|(word, next)| word == next) {
             self.stayed += 1;
         } else {
             found.room(state.len()).extend_from_slice(next);
@@ -68,17 +69,16 @@ impl Expansion {
     ) {
         match kind {
             AlternativeKind::Next => {
+                // Most alternatives of a state with many of them leave it as it is.
+                if overwrites.iter().all(|Overwrite { word, clear, set }| state[*word as usize] & clear == *set) {
+                    self.stayed += 1;
+                    return;
+                }
                 let out = found.room(state.len());
                 let start = out.len();
                 out.extend_from_slice(state);
                 apply(overwrites, &mut out[start..]);
-                // Word by word: a call to compare memory takes longer than a state of few words.
-                if out[start..].iter().zip(state).all(|(next, word)| next == word) {
-                    out.truncate(start);
-                    self.stayed += 1;
-                } else {
-                    self.moved += 1;
-                }
+                self.moved += 1;
             }
             AlternativeKind::Fault(class) => self.faults[class as usize] += 1,
             AlternativeKind::Unbounded => self.unbounded += 1,

@@ -25,8 +25,10 @@ pub(crate) const DEAD: End = 0;
 type Link = u32;
 const END: Link = 1 << 31;
 
-/// LIMIT: fields of more bits have their children in a table by hash.
+/// LIMIT: fields of more bits have only some of their children by code.
 const WIDE: u8 = 8;
+/// Children of such a field stand by code as long as at least one in so many of them is known, and in a table by hash beyond.
+const SPARSE: u32 = 4;
 /// LIMIT: a tree with more links is given up.
 const LINKS: usize = 1 << 25;
 
@@ -34,8 +36,8 @@ const LINKS: usize = 1 << 25;
 enum Node {
     /// Children by code, from `base` on.
     Field { word: u32, shift: u8, bits: u8, base: u32 },
-    /// Children by code, in a table.
-    Wide { word: u32, shift: u8, bits: u8, index: u32 },
+    /// Children by code, the first `len` of them from `base` on, the others in a table.
+    Wide { word: u32, shift: u8, bits: u8, base: u32, len: u32 },
     /// Every child is walked; dead where all of them are.
     Ask { base: u32, of: u32 },
     /// Every child is walked; where all are dead, the one after them.
@@ -47,7 +49,10 @@ enum Node {
 pub(crate) struct Tree {
     nodes: Vec<Node>,
     links: Vec<Link>,
+    /// By the index of a node and a code, the children that do not stand by code.
     wide: HashMap<(u32, u32), Link, FxBuildHasher>,
+    /// By the index of a node with children in that table, how many children it has in all.
+    known: HashMap<u32, u32, FxBuildHasher>,
     root: Link,
     record: Record,
     given_up: bool,
@@ -125,13 +130,39 @@ impl Tree {
         }
     }
 
+    /// What a link comes to in a state, past all fields: an end, a question, or not known.
+    #[inline(always)]
+    fn past_fields(&self, mut link: Link, words: &[u64]) -> Link {
+        loop {
+            if link & END != 0 || link == 0 {
+                return link;
+            }
+            match self.nodes[link as usize - 1] {
+                Node::Field { word, shift, bits, base } => {
+                    let code = words[word as usize] >> shift & ((1 << bits) - 1);
+                    link = self.links[base as usize + code as usize];
+                }
+                Node::Wide { word, shift, bits, base, len } => {
+                    let code = (words[word as usize] >> shift & ((1 << bits) - 1)) as u32;
+                    link = match code < len {
+                        true => self.links[base as usize + code as usize],
+                        false => self.wide.get(&(link - 1, code)).copied().unwrap_or(0),
+                    };
+                }
+                Node::Ask { .. } | Node::Guarded { .. } => return link,
+            }
+        }
+    }
+
+    /// Whether some alternative is none of the dead.
     fn walk_from(
         &self,
-        mut link: Link,
+        link: Link,
         words: &[u64],
         interrupt: &Interrupt,
         visit: &mut impl FnMut(End),
     ) -> Result<bool, Unmade> {
+        let mut link = self.past_fields(link, words);
         loop {
             if link & END != 0 {
                 let end = link & !END;
@@ -143,35 +174,30 @@ impl Tree {
             if link == 0 {
                 return Err(Unmade::Unknown);
             }
-            match self.nodes[link as usize - 1] {
-                Node::Field { word, shift, bits, base } => {
-                    let code = words[word as usize] >> shift & ((1 << bits) - 1);
-                    link = self.links[base as usize + code as usize];
-                }
-                Node::Wide { word, shift, bits, index } => {
-                    let code = (words[word as usize] >> shift & ((1 << bits) - 1)) as u32;
-                    link = self.wide.get(&(index, code)).copied().unwrap_or(0);
-                }
-                // Questions multiply, so that one state may have many alternatives.
-                Node::Ask { .. } | Node::Guarded { .. } if interrupt.is_raised() => return Err(Unmade::Interrupted),
-                Node::Ask { base, of } => {
-                    let mut alive = false;
-                    for child in &self.links[base as usize..(base + of) as usize] {
-                        alive |= self.walk_from(*child, words, interrupt, visit)?;
-                    }
-                    return Ok(alive);
-                }
-                Node::Guarded { base, of } => {
-                    let mut alive = false;
-                    for child in &self.links[base as usize..(base + of) as usize] {
-                        alive |= self.walk_from(*child, words, interrupt, visit)?;
-                    }
-                    if alive {
-                        return Ok(true);
-                    }
-                    link = self.links[(base + of) as usize];
+            // Questions multiply, so that one state may have many alternatives.
+            if interrupt.is_raised() {
+                return Err(Unmade::Interrupted);
+            }
+            let (base, of, guarded) = match self.nodes[link as usize - 1] {
+                Node::Ask { base, of } => (base as usize, of as usize, false),
+                Node::Guarded { base, of } => (base as usize, of as usize, true),
+                Node::Field { .. } | Node::Wide { .. } => unreachable!("the link is past all fields"),
+            };
+            let mut alive = false;
+            for child in &self.links[base..base + of] {
+                // Most are ends, for which a call would take as long as the way to them.
+                let child = self.past_fields(*child, words);
+                if child & END == 0 {
+                    alive |= self.walk_from(child, words, interrupt, visit)?;
+                } else if child != END | DEAD {
+                    visit(child & !END);
+                    alive = true;
                 }
             }
+            if alive || !guarded {
+                return Ok(alive);
+            }
+            link = self.past_fields(self.links[base + of], words);
         }
     }
 
@@ -203,10 +229,10 @@ impl Tree {
                     assert!((field.word, field.shift) == (word, shift), "a step looks where the same step did not");
                     Place::Link(base as usize + field.code(words) as usize)
                 }
-                (Node::Wide { index, word, shift, .. }, Event::Look(field)) => {
+                (Node::Wide { word, shift, .. }, Event::Look(field)) => {
                     let field = fields[*field as usize];
                     assert!((field.word, field.shift) == (word, shift), "a step looks where the same step did not");
-                    Place::Wide(index, field.code(words))
+                    Place::Wide(node - 1, field.code(words))
                 }
                 (Node::Ask { base, of } | Node::Guarded { base, of }, Event::Ask) => {
                     let asked = answers.next().expect("an answer to each question");
@@ -225,7 +251,7 @@ impl Tree {
             Event::Look(field) => {
                 let Field { word, shift, bits, .. } = fields[field as usize];
                 if bits > WIDE {
-                    Node::Wide { word, shift, bits, index: self.nodes.len() as u32 }
+                    Node::Wide { word, shift, bits, base, len: 0 }
                 } else {
                     self.links.resize(base as usize + (1 << bits), 0);
                     Node::Field { word, shift, bits, base }
@@ -259,8 +285,8 @@ impl Tree {
             Node::Field { word, shift, bits, base } => {
                 Stop::Field { bits: Bits { word, shift, bits }, below: Below::Links(base) }
             }
-            Node::Wide { word, shift, bits, index } => {
-                Stop::Field { bits: Bits { word, shift, bits }, below: Below::Table(index) }
+            Node::Wide { word, shift, bits, .. } => {
+                Stop::Field { bits: Bits { word, shift, bits }, below: Below::Table(link - 1) }
             }
             Node::Ask { base, of } => Stop::Ask { base, of, guarded: false },
             Node::Guarded { base, of } => Stop::Ask { base, of, guarded: true },
@@ -289,12 +315,7 @@ impl Tree {
                     let longer: Vec<Bits> = looked.iter().copied().chain([bits]).collect();
                     let codes: Vec<u32> = match below {
                         Below::Links(_) => (0..1 << bits.bits).collect(),
-                        Below::Table(index) => {
-                            let mut codes: Vec<u32> =
-                                self.wide.keys().filter(|(node, _)| *node == index).map(|(_, code)| *code).collect();
-                            codes.sort_unstable();
-                            codes
-                        }
+                        Below::Table(index) => self.codes(index),
                     };
                     open.extend(codes.into_iter().map(|code| (Tree::child(stop, code), longer.clone())));
                 }
@@ -306,21 +327,57 @@ impl Tree {
         }
     }
 
+    /// The codes of the known children of a node with a wide field, in their order.
+    fn codes(&self, index: u32) -> Vec<u32> {
+        let Node::Wide { base, len, .. } = self.nodes[index as usize] else { return Vec::new() };
+        let mut codes: Vec<u32> = (0..len).filter(|code| self.links[(base + code) as usize] != 0).collect();
+        codes.extend(self.wide.keys().filter(|(node, _)| *node == index).map(|(_, code)| *code));
+        codes.sort_unstable();
+        codes
+    }
+
     fn link(&self, place: &Place) -> Link {
         match place {
             Place::Root => self.root,
             Place::Link(index) => self.links[*index],
-            Place::Wide(node, code) => self.wide.get(&(*node, *code)).copied().unwrap_or(0),
+            Place::Wide(node, code) => match self.nodes[*node as usize] {
+                Node::Wide { base, len, .. } if *code < len => self.links[(base + code) as usize],
+                _ => self.wide.get(&(*node, *code)).copied().unwrap_or(0),
+            },
         }
     }
 
     fn set(&mut self, place: &Place, link: Link) {
-        match place {
+        match *place {
             Place::Root => self.root = link,
-            Place::Link(index) => self.links[*index] = link,
-            Place::Wide(node, code) => {
-                self.wide.insert((*node, *code), link);
-            }
+            Place::Link(index) => self.links[index] = link,
+            Place::Wide(node, code) => self.set_wide(node, code, link),
+        }
+    }
+
+    fn set_wide(&mut self, index: u32, code: u32, link: Link) {
+        let Node::Wide { base, len, .. } = &mut self.nodes[index as usize] else { return };
+        let known = self.known.entry(index).or_default();
+        if code < *len {
+            let place = &mut self.links[(*base + code) as usize];
+            *known += u32::from(*place == 0);
+            *place = link;
+            return;
+        }
+        if self.wide.insert((index, code), link).is_some() {
+            return;
+        }
+        *known += 1;
+        // The number of a state's value may be any: only where most of the codes below are known do they get places.
+        if code / SPARSE < *known && code < 1 << 30 {
+            let (from, before) = (*base as usize, *len);
+            (*base, *len) = (self.links.len() as u32, (code + 1).next_power_of_two());
+            self.links.extend_from_within(from..from + before as usize);
+            let Tree { links, wide, .. } = self;
+            links.extend((before..*len).map(|code| wide.remove(&(index, code)).unwrap_or(0)));
         }
     }
 }
+
+#[cfg(test)]
+mod tests;
