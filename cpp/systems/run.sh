@@ -79,6 +79,36 @@ expect 0 "$short/program" --virtual 0.5 --log "$short/run.mcap"
 expect 0 "$groundstate" conform "$short/Classifier.asm" "$short/run.mcap"
 said "conforms tick by tick"
 
+# Channels with several readers: each gets what was decided, in both forms of the buffer; one that does not is found.
+for form in "" --wait-free; do
+    dock=$out/dock$form
+    mkdir -p "$dock"
+    cp dock/camera.hpp "$dock"
+    sed "s|import ../../../|import $(realpath ../..)/|" dock/Dock.chart >"$dock/Dock.chart"
+    cp dock/*.asm "$dock"
+    expect 0 "$groundstate" chart build "$dock/Dock.chart"
+    expect 0 "$groundstate" generate cpp $form "$dock/Dock.chart" -o "$dock"
+    compile_dock() { compile "$dock" -O0 "$dock"/generated/machines/*.cpp; }
+    compile_dock
+    for run in "--virtual 1" "--virtual 1 --seed 3"; do
+        expect 0 "$dock/program" $run --log "$dock/run.mcap"
+        expect 0 "$groundstate" conform "$dock/Dock.asm" "$dock/run.mcap"
+        said "^280 decisions are those"
+    done
+    expect "0 3" "$dock/program" --real 0.2 --log "$dock/run.mcap"
+    expect "0 3" "$groundstate" conform "$dock/Dock.asm" "$dock/run.mcap"
+    cp "$dock/generated/dock.hpp" "$dock/made.hpp"
+    copy='aim_logger_channel_.own() = aim_motor_channel_.own();'
+    grep -q "$copy" "$dock/made.hpp" || fail "the second reader's datum is not brought"
+    for fault in "" "$copy aim_logger_channel_.own().value += 1;"; do
+        sed "s/$copy/$fault/" "$dock/made.hpp" >"$dock/generated/dock.hpp"
+        compile_dock
+        expect 0 "$dock/program" --virtual 1 --log "$dock/run.mcap"
+        expect 1 "$groundstate" conform "$dock/Dock.asm" "$dock/run.mcap"
+        said "logger got aim_logger = .*, which was decided as"
+    done
+done
+
 # Files of the user's stay as they are.
 mkdir -p "$out/contention"
 cp contention/data.hpp contention/main.cpp "$out/contention"

@@ -185,7 +185,7 @@ export interface ChannelText {
   master: Property
   domain: Property
   from: string | null
-  to: string | null
+  readers: string[]
 }
 
 export interface DeviceText {

@@ -125,7 +125,7 @@ function Choice<Value extends string>({ label, value, values, disabled, pick }: 
 function ComponentFields({ part, system, ...all }: Context & { acting: Acting; part: ComponentText; system: SystemText }): ReactNode {
   const { id, acting, chart } = all
   const channels = Object.entries(system.parts).filter(([, other]) => other.part === 'channel')
-  const read = channels.filter(([, other]) => other.part === 'channel' && other.to === id).map(([name]) => name)
+  const read = channels.filter(([, other]) => other.part === 'channel' && other.readers.includes(id)).map(([name]) => name)
   const timing = part.synchronous === null ? null : part.synchronous ? ('synchronous' as const) : ('asynchronous' as const)
   return (
     <>
@@ -203,7 +203,7 @@ function Phases({ part, channels, ...all }: Context & { acting: Acting; part: Co
 function NewPhase({ id, acting, channels }: { id: string; acting: Acting; channels: { name: string; other: ChannelText }[] }): ReactNode {
   const [verb, setVerb] = useState<'read' | 'elaborate' | 'write'>('elaborate')
   const [subject, setSubject] = useState('')
-  const fitting = channels.filter(({ other }) => (verb === 'read' ? other.to === id : other.from === id)).map(({ name }) => name)
+  const fitting = channels.filter(({ other }) => (verb === 'read' ? other.readers.includes(id) : other.from === id)).map(({ name }) => name)
   const wanted = verb === 'elaborate' ? subject.trim() : fitting.includes(subject) ? subject : (fitting[0] ?? '')
   const add = (event: FormEvent): void => {
     event.preventDefault()
@@ -237,7 +237,7 @@ function NewPhase({ id, acting, channels }: { id: string; acting: Acting; channe
 
 function ChannelFields({ part, ...all }: Context & { acting: Acting; part: ChannelText }): ReactNode {
   const { id, acting, chart } = all
-  const ends = [part.from, part.to].filter((end) => end !== null)
+  const ends = [part.from, ...part.readers].filter((end) => end !== null)
   return (
     <>
       <div className="pair">
@@ -246,7 +246,7 @@ function ChannelFields({ part, ...all }: Context & { acting: Acting; part: Chann
       </div>
       <div className="pair">
         <span className="key">{words.inspector.to}</span>
-        <code>{part.to}</code>
+        <code>{part.readers.join(', ')}</code>
       </div>
       <Choice
         label={words.system.made}

@@ -15,7 +15,7 @@ use syntax::{FileId, SourceFile, Span};
 pub struct Computing {
     /// The machines, in the order of the components.
     pub machines: Vec<ComponentMachine>,
-    /// What each channel, sensor and actuator carries that says so, by name.
+    /// What each channel, sensor and actuator carries that says so, by the name that is drawn.
     pub contents: BTreeMap<String, Content>,
     /// Modules that the machines import, as paths relative to the chart.
     pub(crate) imports: Vec<String>,

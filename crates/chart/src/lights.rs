@@ -4,7 +4,7 @@
 use crate::build::state_value;
 use crate::chart::{Control, ShapeKind};
 use crate::subject::{Part, Subject};
-use crate::system::Component;
+use crate::system::{Component, Phase};
 
 /// Something whose light moves from shape to shape: a machine running for one element, or a component of a system.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -36,16 +36,16 @@ impl Subject<'_> {
         let (chart, machine) = match self.part {
             Part::Machine(machine) => (self.chart, machine),
             Part::System(system) => {
-                let phase = |component: &Component, name: &str| Light {
-                    value: name.to_string(),
-                    shape: format!("{}/{name}", component.name),
-                    label: name.to_string(),
+                let phase = |component: &Component, phase: &Phase| Light {
+                    value: phase.name.clone(),
+                    shape: format!("{}/{}", component.name, phase.drawn),
+                    label: phase.name.clone(),
                 };
                 let component = |component: &Component| Lights {
                     name: component.text.clone(),
                     // The function in models built from systems, see `build::system`.
                     term: format!("scheduler_currentPhase({})", component.name),
-                    shapes: component.phases.iter().map(|one| phase(component, &one.name)).collect(),
+                    shapes: component.phases.iter().map(|one| phase(component, one)).collect(),
                 };
                 return system.components.iter().map(component).collect();
             }

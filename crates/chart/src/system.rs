@@ -1,7 +1,8 @@
 //! The meaning of a system: components with phases, channels between them, devices (spec/charts.md, "Systems").
 //!
-//! INVARIANT: in a system without errors, every index is valid; times are whole ticks; a channel is read by a phase of
-//! its receiver and written by one of its sender; a buffer has a master.
+//! A channel that the chart draws to several readers is a channel for each of them here, with its own buffer, queue or value; what writes
+//! it is a phase for each, one after the other. INVARIANT: in a system without errors, every index is valid; times are whole ticks; a
+//! channel is read by a phase of its receiver and written by one of its sender; a buffer has a master.
 
 use syntax::Span;
 
@@ -97,6 +98,8 @@ impl Timing {
 pub struct Phase {
     /// The name.
     pub name: String,
+    /// The name of the phase as it is drawn: another one only if it writes to one of several readers.
+    pub drawn: String,
     /// What is read, written or elaborated, as named in the text.
     pub subject: String,
     /// What it does.
@@ -127,6 +130,8 @@ pub enum Action {
 pub struct Channel {
     /// The name.
     pub name: String,
+    /// The name of the channel as it is drawn, and as machines know it: another one only if the drawn channel has several readers.
+    pub drawn: String,
     /// The index of the component that writes.
     pub from: usize,
     /// The index of the component that reads.

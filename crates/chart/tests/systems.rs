@@ -257,3 +257,83 @@ fn only_stated_processors_are_judged() {
         assert!(told.iter().any(|one| one.starts_with(id)), "{bound}: {told:#?}");
     }
 }
+
+/// A channel to two readers, and the same written out: a channel for each, and a phase for each that writes it.
+fn broadcast(kind: &str, own: [&str; 2], written_out: bool) -> String {
+    let (write, channels) = match written_out {
+        false => ("write frame 0.2 ms".to_string(), format!("channel frame from grab to servo, view {kind}")),
+        true => (
+            "write frame_servo as grab_write_frame_servo 0.2 ms write frame_view as grab_write_frame_view 0.2 ms"
+                .to_string(),
+            format!(
+                "channel frame_servo from grab to servo {} channel frame_view from grab to view {}",
+                own[0], own[1]
+            ),
+        ),
+    };
+    let read = |reader: &str| match written_out {
+        false => "read frame".to_string(),
+        true => format!("read frame_{reader} as {reader}_read_frame"),
+    };
+    let awaits = if written_out { "frame_view" } else { "frame" };
+    format!(
+        "chart Cell import patterns/ControlTask system cell tick 0.1 ms \
+         component grab synchronous period 10 ms elaborate shot 2 ms {write} endcomponent \
+         component servo synchronous period 5 ms {} elaborate law 1 ms endcomponent \
+         component view asynchronous awaits {awaits} {} elaborate show 1..3 ms endcomponent \
+         {channels} sensor eye eye -> grab within 60 ms from eye to view endsystem",
+        read("servo"),
+        read("view")
+    )
+}
+
+#[test]
+fn a_channel_with_several_readers_is_one_for_each() {
+    let same = |kind: &str, own: [&str; 2]| {
+        let (one, other) = (built(&broadcast(kind, own, false)), built(&broadcast(kind, own, true)));
+        assert_eq!(one, other, "{kind}");
+        assert_eq!(differences(&broadcast(kind, own, false), &one), [""; 0], "{kind}");
+    };
+    // The slower of two synchronous components, the asynchronous one of a mixed pair.
+    same("swinging buffer 3", ["swinging buffer 3 master grab", "swinging buffer 3 master view"]);
+    same("swinging buffer 2 master grab", ["swinging buffer 2 master grab", "swinging buffer 2 master grab"]);
+    // A reader that is named says nothing about the other one's buffer.
+    same("swinging buffer 2 master servo", ["swinging buffer 2 master servo", "swinging buffer 2 master view"]);
+    same("queue 4", ["queue 4", "queue 4"]);
+    same("shared value", ["shared value", "shared value"]);
+}
+
+#[test]
+fn readers_that_do_not_fit() {
+    let text = broadcast("queue 4", ["", ""], false);
+    let check = |from: &str, to: &str, expected: &[&str]| {
+        assert!(text.contains(from), "{from}");
+        let loaded = chart::load(SourceFile::new("Cell.chart", text.replace(from, to)), &mut Patterns);
+        let told: Vec<&str> = loaded.diagnostics.iter().map(|fault| fault.message.as_str()).collect();
+        assert_eq!(told, expected, "`{from}` for `{to}`");
+    };
+    check(
+        "servo, view",
+        "servo, view, servo",
+        &["the channel `frame` does not fit: `servo` is named twice as its reader"],
+    );
+    check("5 ms read frame", "5 ms", &["the channel `frame` does not fit: `servo` does not read it once a cycle"]);
+    check("write frame 0.2 ms", "", &["the channel `frame` does not fit: its sender does not write it once a cycle"]);
+    check("servo, view queue 4", "servo, view swinging buffer 2 master eye", &["there is no component `eye`"]);
+    // Of two synchronous components with one period, neither is the slower one.
+    let text_of_buffers = text.replace("queue 4", "swinging buffer 2").replace("period 5 ms", "period 10 ms");
+    let loaded = chart::load(SourceFile::new("Cell.chart", text_of_buffers), &mut Patterns);
+    let told: Vec<&str> = loaded.diagnostics.iter().map(|fault| fault.message.as_str()).collect();
+    assert_eq!(told, ["the master of the buffer `frame` must be named"]);
+    check(
+        "endcomponent component view asynchronous awaits frame read frame",
+        "write frame_view endcomponent component view asynchronous awaits frame read frame read frame_view",
+        &["there is no channel `frame_view`", "there is no channel `frame_view`"],
+    );
+    check(
+        "endcomponent component view asynchronous awaits frame read frame",
+        "write frame_view endcomponent channel frame_view from servo to view queue 2 \
+         component view asynchronous awaits frame read frame read frame_view as other",
+        &["a second channel `frame_view` would be made"],
+    );
+}

@@ -79,7 +79,11 @@ impl Functions {
                 };
                 channels.keys().filter(is_kind).cloned().collect()
             };
-            tasks.retain(|task| of(task, FunctionKind::Monitored).is_empty());
+            let given = |task: &Task| {
+                let drawn = channels.keys().filter_map(|channel| drawn(program, &vocabulary, &task.name, channel));
+                drawn.into_iter().any(|function| program.function(function).kind == FunctionKind::Monitored)
+            };
+            tasks.retain(|task| of(task, FunctionKind::Monitored).is_empty() && !given(task));
             for task in &mut tasks {
                 task.parts = [of(task, FunctionKind::Derived), of(task, FunctionKind::Controlled)];
             }
@@ -270,6 +274,18 @@ impl Functions {
     fn set(&mut self, location: Location, value: Value) -> Result<(), String> {
         self.machine.set(&location, value).map_err(|fault| fault.show(self.machine.program()).to_string())
     }
+}
+
+/// The function of what a task computes for a channel that is drawn to several readers: `TASK_DRAWN`, where the channel to one of them is
+/// `DRAWN_READER`. None for other channels, for which the task has a function of their own name.
+fn drawn(program: &Program, vocabulary: &Vocabulary, task: &str, channel: &str) -> Option<FunctionId> {
+    program.find_function(&format!("{channel}_value"), 1)?;
+    if program.find_function(&format!("{task}_{channel}"), 0).is_some() {
+        return None;
+    }
+    let mut names =
+        vocabulary.components.iter().filter_map(|reader| channel.strip_suffix(&reader.name)?.strip_suffix('_'));
+    names.find_map(|drawn| program.find_function(&format!("{task}_{drawn}"), 0))
 }
 
 /// How many of these records are the first decision, if it is known to be whole.

@@ -2,7 +2,7 @@
 //! their own between them, as in the paper's Figures 1 and 2, and devices.
 
 use chart::Layout;
-use chart::system::{Action, ChannelKind, Component, Device, System};
+use chart::system::{Action, Component, Device, System};
 
 use crate::measure::{LEADING, RULE, SMALL, SMALL_LEADING, TEXT, bold_width, extent, text_width, wrapped};
 use crate::picture::{Detail, Figure};
@@ -19,22 +19,31 @@ pub fn of_system(system: &System, layout: Option<&Layout>) -> Scene {
     for component in &system.components {
         scene.nodes.push(node(&component.name, Figure::Component, &component.text, about(component, system)));
     }
-    for channel in &system.channels {
+    let first = |index: usize| {
+        let is_drawn = system.channels[..index].iter().any(|other| other.drawn == system.channels[index].drawn);
+        !is_drawn
+    };
+    for (_, channel) in system.channels.iter().enumerate().filter(|(index, _)| first(*index)) {
         let mut small: Vec<Detail> = channel.message.iter().map(|message| plain(&message.text)).collect();
         small.push(plain(&words::channel(channel.kind)));
-        if let ChannelKind::Buffer { master, .. } = channel.kind {
-            small.push(plain(&format!("master: {}", system.components[master].text)));
+        let drawn = || system.channels.iter().filter(|other| other.drawn == channel.drawn);
+        if drawn().count() > 1 {
+            small.push(plain("one for each reader"));
         }
-        scene.nodes.push(node(&channel.name, Figure::Channel, &channel.name, small));
+        for master in words::masters(system, drawn()) {
+            small.push(plain(&master));
+        }
+        scene.nodes.push(node(&channel.drawn, Figure::Channel, &channel.drawn, small));
     }
     for device in devices(false) {
         scene.nodes.push(node(&device.name, Figure::Device, &device.text, vec![plain(&carrying("actuator", device))]));
     }
     let place = |name: &str| scene.nodes.iter().position(|node| node.id == name);
     let component = |index: usize| place(&system.components[index].name);
-    let ways = system.channels.iter().flat_map(|channel| {
-        let middle = place(&channel.name);
-        [(component(channel.from), middle), (middle, component(channel.to))]
+    let ways = system.channels.iter().enumerate().flat_map(|(index, channel)| {
+        let middle = place(&channel.drawn);
+        let written = first(index).then_some((component(channel.from), middle));
+        written.into_iter().chain([(middle, component(channel.to))])
     });
     let links = system.connections.iter().map(|(from, to)| (place(from), place(to)));
     let edges = ways.chain(links).filter_map(|(from, to)| Some(Edge { from: from?, branch: None, to: to? })).collect();
@@ -57,17 +66,20 @@ fn plain(text: &str) -> Detail {
 /// When a component runs, and its phases.
 fn about(component: &Component, system: &System) -> Vec<Detail> {
     let mut lines = vec![plain(&words::timing(component.timing, system.tick_ns))];
-    for phase in &component.phases {
+    let drawn = component.phases.chunk_by(|one, next| one.drawn == next.drawn);
+    for (phase, times) in drawn.map(|phases| (&phases[0], phases.len())) {
         let what = match phase.action {
-            Action::Read(channel) => format!("read {}", system.channels[channel].name),
-            Action::Write(channel) => format!("write {}", system.channels[channel].name),
+            Action::Read(channel) => format!("read {}", system.channels[channel].drawn),
+            Action::Write(channel) => format!("write {}", system.channels[channel].drawn),
             Action::Elaborate(_) => {
                 let machine = phase.machine.as_ref().map_or(String::new(), |machine| format!(" by {}", machine.text));
                 format!("elaborate {}{machine}", phase.subject)
             }
         };
-        let id = Some(format!("{}/{}", component.name, phase.name));
-        lines.push(Detail { id, text: what, right: Some(words::duration(phase, system.tick_ns)) });
+        let id = Some(format!("{}/{}", component.name, phase.drawn));
+        let time = words::duration(phase, system.tick_ns);
+        let time = if times > 1 { format!("{times} \u{d7} {time}") } else { time };
+        lines.push(Detail { id, text: what, right: Some(time) });
     }
     lines
 }

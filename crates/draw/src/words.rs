@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use chart::system::{ChannelKind, Phase, System, Timing};
+use chart::system::{Channel, ChannelKind, Phase, System, Timing};
 use chart::{Chart, Machine, Origin, Target, transitions};
 
 /// LIMIT: a description tells so many transitions.
@@ -93,6 +93,24 @@ pub fn channel(kind: ChannelKind) -> String {
         ChannelKind::Buffer { arrays, .. } => format!("swinging buffer, {arrays} arrays"),
         ChannelKind::Queue { capacity } => format!("message queue of {capacity}"),
         ChannelKind::Shared => "shared value".to_string(),
+    }
+}
+
+/// Who updates the indexes of a channel that is drawn as one: nobody, one for all its readers, or one for each.
+pub fn masters<'s>(system: &'s System, drawn: impl Iterator<Item = &'s Channel>) -> Vec<String> {
+    let text = |component: usize| &system.components[component].text;
+    let masters: Vec<(usize, usize)> = drawn
+        .filter_map(|channel| match channel.kind {
+            ChannelKind::Buffer { master, .. } => Some((master, channel.to)),
+            ChannelKind::Queue { .. } | ChannelKind::Shared => None,
+        })
+        .collect();
+    match masters.first() {
+        None => Vec::new(),
+        Some((first, _)) if masters.iter().all(|(master, _)| master == first) => {
+            vec![format!("master: {}", text(*first))]
+        }
+        Some(_) => masters.iter().map(|(master, to)| format!("master for {}: {}", text(*to), text(*master))).collect(),
     }
 }
 

@@ -229,7 +229,7 @@ impl View<'_> {
             Part::Machine(_) => shape.map(|shape| shape.span),
             Part::System(system) => {
                 let components = system.components.iter().map(|part| (&part.name, part.span));
-                let channels = system.channels.iter().map(|part| (&part.name, part.span));
+                let channels = system.channels.iter().map(|part| (&part.drawn, part.span));
                 let devices = system.devices.iter().map(|part| (&part.name, part.span));
                 components.chain(channels).chain(devices).find(|(name, _)| **name == placed.id).map(|(_, span)| span)
             }

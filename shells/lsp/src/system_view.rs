@@ -92,7 +92,7 @@ impl Properties<'_> {
                 "master": self.word(kind.as_ref().and_then(|kind| kind.master())),
                 "domain": self.node(channel.message().as_ref().map(AstNode::syntax)),
                 "from": text(channel.from()),
-                "to": text(channel.to()),
+                "readers": channel.readers().map(|name| name.text().to_string()).collect::<Vec<_>>(),
             });
             parts.insert(name, told);
         }

@@ -3,7 +3,8 @@
 //! In: a system and its machines, whose functions are all fed and taken. Out: [`Computing`]. The patterns carry the number of each datum;
 //! what it says is in a table of the channel, `CHANNEL_value`, by this number. An elaboration that ends makes one step of its machine
 //! and, after that in the same step, enters what was decided under the number that the next writing gets. Until it is written, a later
-//! elaboration replaces it: so a datum that was dropped is lost with its value.
+//! elaboration replaces it: so a datum that was dropped is lost with its value. A channel that is drawn to several readers is one for each
+//! here, each with its own numbers and table; what is decided or computed for it is one value for all.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -15,7 +16,7 @@ use super::own::{Names, declared};
 use super::roles::{own, place, prepares};
 use super::types::Types;
 use crate::computing::{ComponentMachine, Computing, Feed, Made, Take};
-use crate::system::{Action, ChannelKind, Component, System};
+use crate::system::{Action, Channel, ChannelKind, Component, System};
 
 /// Composes what the components of a system compute.
 pub(super) fn compose(system: &System, machines: Vec<ComponentMachine>, types: &Types) -> Computing {
@@ -60,6 +61,12 @@ fn next_number(system: &System, channel: usize) -> String {
         ChannelKind::Queue { .. } => format!("mq_sent({name}) + 1"),
         ChannelKind::Shared => format!("sv_sequence({name}) + 1"),
     }
+}
+
+/// The function of a component that says what it got from a channel, or decided for it, where the machine's own function has not the
+/// channel's name: one that is drawn to several readers. `conform` looks for it by that name.
+fn copy(component: &Component, channel: &Channel) -> Option<String> {
+    (channel.name != channel.drawn).then(|| format!("{}_{}", component.name, channel.name))
 }
 
 fn channels(system: &System, computing: &mut Computing) {
@@ -179,6 +186,15 @@ fn component(system: &System, machine: &ComponentMachine, computing: &mut Comput
         if let Take::Channel(channel) = take {
             let table = value(&system.channels[*channel].name);
             after.push(format!("{table}({}) := {}", next_number(system, *channel), names.function(name)));
+            let (drawn, message) = (&system.channels[*channel], &system.channels[*channel].message);
+            if let (Some(copy), Some(message)) = (copy(component, drawn), message) {
+                let text = format!(
+                    "// what it decided for the reader {}\ncontrolled {copy}: {}\n",
+                    system.components[drawn.to].name, message.text
+                );
+                computing.declarations.push(Made { name: copy.clone(), text, span: drawn.span });
+                after.push(format!("{copy} := {}", names.function(name)));
+            }
         }
     }
     for (name, feed) in &machine.feeds {
@@ -208,6 +224,15 @@ fn component(system: &System, machine: &ComponentMachine, computing: &mut Comput
             }
         };
         let name = names.function(name);
+        if let Feed::Channel(channel) = feed
+            && let (Some(copy), Some(message)) =
+                (copy(component, &system.channels[*channel]), &system.channels[*channel].message)
+        {
+            let declaration = format!("// the same\nderived {copy}: {}\n", message.text);
+            computing.declarations.push(Made { name: copy.clone(), text: declaration, span: component.span });
+            let text = format!("function {copy} = {name}\n");
+            computing.definitions.push(Made { name: copy, text, span: component.span });
+        }
         let text = format!("// {text}\nfunction {name} = {definition}\n");
         computing.definitions.push(Made { name, text, span: component.span });
     }
@@ -270,10 +295,15 @@ fn given(system: &System, component: &Component, computing: &mut Computing) {
         let Action::Write(channel) = phase.action else { continue };
         let drawn = &system.channels[channel];
         let (Some(message), Some(prepared)) = (&drawn.message, prepares(component, at)) else { continue };
-        let name = format!("{}_{}", component.name, drawn.name);
-        let text =
-            format!("// what {} computes for {}\nmonitored {name}: {}\n", component.name, drawn.name, message.text);
-        computing.declarations.push(Made { name: name.clone(), text, span: drawn.span });
+        let name = format!("{}_{}", component.name, drawn.drawn);
+        // All readers of a channel get one datum.
+        if !computing.declarations.iter().any(|made| made.name == name && made.span == drawn.span) {
+            let text = format!(
+                "// what {} computes for {}\nmonitored {name}: {}\n",
+                component.name, drawn.drawn, message.text
+            );
+            computing.declarations.push(Made { name: name.clone(), text, span: drawn.span });
+        }
         let update = format!("{}({}) := {name}", value(&drawn.name), next_number(system, channel));
         by_phase.entry(prepared).or_default().push(update);
     }

@@ -32,6 +32,18 @@ fn ends(component: &Component) -> (Vec<usize>, Vec<(usize, usize)>) {
     (read, written)
 }
 
+/// Of the channels that a component writes, one of each that is drawn: those to several readers get one datum.
+fn drawn(system: &System, written: &[(usize, usize)]) -> Vec<(usize, usize)> {
+    let name = |channel: usize| &system.channels[channel].drawn;
+    let mut found: Vec<(usize, usize)> = Vec::new();
+    for one in written {
+        if !found.iter().any(|first| name(first.0) == name(one.0)) {
+            found.push(*one);
+        }
+    }
+    found
+}
+
 /// The elaboration that prepares what a component writes in a phase: that of its machine, otherwise the last one before the phase.
 pub(super) fn prepares(component: &Component, phase: usize) -> Option<usize> {
     let elaborates = |at: &usize| matches!(component.phases[*at].action, Action::Elaborate(_));
@@ -55,10 +67,10 @@ pub(super) fn misplaced(system: &System) -> Vec<Diagnostic> {
                 (Action::Read(_) | Action::Write(_), _) => faults.push(fault::no_elaboration(named.span)),
             }
         }
-        for (channel, at) in ends(component).1 {
+        for (channel, at) in drawn(system, &ends(component).1) {
             let channel = &system.channels[channel];
             if channel.message.is_some() && prepares(component, at).is_none() {
-                faults.push(fault::written_too_early(component.phases[at].span, &component.name, &channel.name));
+                faults.push(fault::written_too_early(component.phases[at].span, &component.name, &channel.drawn));
             }
         }
     }
@@ -106,9 +118,9 @@ pub(super) fn assign(system: &System, machine: &mut ComponentMachine, types: &Ty
                 }
             }
             FunctionKind::Out => match if is_own { take_of(system, machine, function) } else { None } {
-                Some(take) => {
-                    faults.extend(unfit(system, machine, function, types, take, at));
-                    takes.push((function.name.clone(), take));
+                Some(taken) => {
+                    faults.extend(unfit(system, machine, function, types, taken[0], at));
+                    takes.extend(taken.into_iter().map(|take| (function.name.clone(), take)));
                 }
                 None => faults.push(untaken(system, machine, function, at)),
             },
@@ -116,19 +128,19 @@ pub(super) fn assign(system: &System, machine: &mut ComponentMachine, types: &Ty
             FunctionKind::Controlled | FunctionKind::Static | FunctionKind::Derived | FunctionKind::Local => {}
         }
     }
-    for (channel, _) in ends(component).1 {
+    for (channel, _) in drawn(system, &ends(component).1) {
         let channel = &system.channels[channel];
         if channel.message.is_none() {
             continue;
         }
-        let written = own(machine).find(|function| function.name == channel.name);
+        let written = own(machine).find(|function| function.name == channel.drawn);
         match written {
             Some(function) if function.kind == FunctionKind::Out && function.parameters.is_empty() => {
-                if !updates(machine, &channel.name) {
-                    faults.push(fault::never_written(at, &channel.name, label(machine, function)));
+                if !updates(machine, &channel.drawn) {
+                    faults.push(fault::never_written(at, &channel.drawn, label(machine, function)));
                 }
             }
-            other => faults.push(fault::no_out_function(at, &channel.name, other.and_then(|one| label(machine, one)))),
+            other => faults.push(fault::no_out_function(at, &channel.drawn, other.and_then(|one| label(machine, one)))),
         }
     }
     (machine.feeds, machine.takes) = (feeds, takes);
@@ -143,7 +155,7 @@ fn feed_of(system: &System, machine: &ComponentMachine, function: &Function) -> 
         return None;
     }
     if let Some(feed) = read.find_map(|index| {
-        let name = &system.channels[index].name;
+        let name = &system.channels[index].drawn;
         let own = (*name == function.name).then_some(Feed::Channel(index));
         own.or_else(|| (is_new(name) == function.name).then_some(Feed::IsNew(index)))
     }) {
@@ -156,21 +168,24 @@ fn feed_of(system: &System, machine: &ComponentMachine, function: &Function) -> 
     system.devices.iter().position(sensor).map(Feed::Sensor)
 }
 
-fn take_of(system: &System, machine: &ComponentMachine, function: &Function) -> Option<Take> {
+/// What takes an out function: a channel, those to all readers of one that is drawn, or an actuator.
+fn take_of(system: &System, machine: &ComponentMachine, function: &Function) -> Option<Vec<Take>> {
     let component = &system.components[machine.component];
     if !function.parameters.is_empty() {
         return None;
     }
     let carries =
-        |index: &usize| system.channels[*index].message.is_some() && system.channels[*index].name == function.name;
-    if let Some((index, _)) = ends(component).1.into_iter().find(|(index, _)| carries(index)) {
-        return Some(Take::Channel(index));
+        |index: &usize| system.channels[*index].message.is_some() && system.channels[*index].drawn == function.name;
+    let written = ends(component).1.into_iter().map(|(index, _)| index).filter(carries);
+    let channels: Vec<Take> = written.map(Take::Channel).collect();
+    if !channels.is_empty() {
+        return Some(channels);
     }
     let actuator = |device: &crate::system::Device| {
         let connected = system.connections.iter().any(|(from, to)| *from == component.name && *to == device.name);
         !device.is_sensor && device.message.is_some() && device.name == function.name && connected
     };
-    system.devices.iter().position(actuator).map(Take::Actuator)
+    system.devices.iter().position(actuator).map(|device| vec![Take::Actuator(device)])
 }
 
 /// Why a function that has the name of a channel or device has no part in it.
@@ -178,18 +193,19 @@ fn reason(system: &System, component: &Component, name: &str, reads: bool) -> Op
     let (read, written) = ends(component);
     let own = |index: usize| if reads { read.contains(&index) } else { written.iter().any(|(one, _)| *one == index) };
     let named = |index: &usize| {
-        let channel = &system.channels[*index].name;
+        let channel = &system.channels[*index].drawn;
         channel == name || reads && is_new(channel) == name
     };
-    if let Some(index) = (0..system.channels.len()).find(named) {
+    let all = (0..system.channels.len()).filter(named).collect::<Vec<_>>();
+    if let Some(index) = all.iter().find(|index| own(**index)).or(all.first()).copied() {
         let channel = &system.channels[index];
         let verb = if reads { "read" } else { "write" };
         return Some(match own(index) {
             true if channel.message.is_none() => {
-                format!("say what the channel carries: `channel {0} : DOMAIN from …`", channel.name)
+                format!("say what the channel carries: `channel {0} : DOMAIN from …`", channel.drawn)
             }
             true => "a channel carries one value: the function has no arguments".to_string(),
-            false => format!("the component does not {verb} the channel `{}`", channel.name),
+            false => format!("the component does not {verb} the channel `{}`", channel.drawn),
         });
     }
     let device = system.devices.iter().find(|device| device.name == name)?;
@@ -208,11 +224,12 @@ fn reason(system: &System, component: &Component, name: &str, reads: bool) -> Op
 fn offered(system: &System, component: &Component, reads: bool) -> Vec<String> {
     let (read, written) = ends(component);
     let mut names = Vec::new();
+    let written = drawn(system, &written);
     for index in if reads { read } else { written.into_iter().map(|(index, _)| index).collect() } {
         let channel = &system.channels[index];
-        names.push(channel.name.clone());
+        names.push(channel.drawn.clone());
         if reads {
-            names.push(is_new(&channel.name));
+            names.push(is_new(&channel.drawn));
         }
     }
     let devices = system.devices.iter().filter(|device| device.is_sensor == reads && device.message.is_some());
@@ -241,7 +258,7 @@ fn misfit(
     at: Span,
 ) -> Option<Diagnostic> {
     let name = match feed {
-        Feed::Channel(index) => &system.channels[index].name,
+        Feed::Channel(index) => &system.channels[index].drawn,
         Feed::Sensor(index) => &system.devices[index].name,
         Feed::IsNew(_) if function.codomain == Domains::BOOLEAN => return None,
         Feed::IsNew(_) => {
@@ -273,7 +290,7 @@ fn unfit(
     at: Span,
 ) -> Option<Diagnostic> {
     let name = match take {
-        Take::Channel(index) => &system.channels[index].name,
+        Take::Channel(index) => &system.channels[index].drawn,
         Take::Actuator(index) => &system.devices[index].name,
     };
     let carried = &types[name];

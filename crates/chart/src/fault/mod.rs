@@ -334,6 +334,14 @@ pub(crate) fn made_twice(span: Span, what: &str, name: &str, first: Span) -> Dia
         .with_help(format!("rename one of them, or link it to what it stands for: `{{…}}` instead of `{name}`"))
 }
 
+/// A channel to one of several readers that has the name of another channel.
+pub(crate) fn second_channel(span: Span, name: &str, first: Span) -> Diagnostic {
+    Diagnostic::error("made-name", span, format!("a second channel `{name}` would be made"))
+        .here("a channel to several readers is one for each: `CHANNEL_READER`")
+        .with_label(first, "the first one is made from this")
+        .with_help("rename one of the two")
+}
+
 /// A cycle that takes too long, with its parts.
 pub(crate) fn long_cycle(span: Span, name: &str, always: bool, sum: &str, until: &str) -> Diagnostic {
     let message = match always {

@@ -257,48 +257,83 @@ impl Reader {
         found
     }
 
-    fn channel_named(&mut self, name: &SyntaxToken, system: &System) -> Option<usize> {
-        let found = system.channels.iter().position(|channel| channel.name == name.text());
-        if found.is_none() {
-            let known: Vec<&str> = system.channels.iter().map(|channel| channel.name.as_str()).collect();
+    /// The channels that are drawn as one of that name; one for each reader.
+    fn channels_named(&mut self, name: &SyntaxToken, system: &System) -> Vec<usize> {
+        let is_drawn = |index: &usize| system.channels[*index].drawn == name.text();
+        let found: Vec<usize> = (0..system.channels.len()).filter(is_drawn).collect();
+        if found.is_empty() {
+            let known: Vec<&str> = system.channels.iter().map(|channel| channel.drawn.as_str()).collect();
             self.faults.push(fault::unknown(self.span(name), "channel", name.text(), &known));
         }
         found
     }
 
+    /// The channel of that name that this component reads; a channel of it that others read, if there is none.
+    fn channel_read(&mut self, name: &SyntaxToken, reader: usize, system: &System) -> Option<usize> {
+        let found = self.channels_named(name, system);
+        found.iter().find(|channel| system.channels[**channel].to == reader).or(found.first()).copied()
+    }
+
     fn channel(&mut self, node: &ast::Channel, system: &mut System) {
         let Some(name) = node.name() else { return };
         let span = self.span(&name);
-        if let Some(first) = system.channels.iter().find(|first| first.name == name.text()) {
+        if let Some(first) = system.channels.iter().find(|first| first.drawn == name.text()) {
             self.faults.push(fault::duplicate(span, "channel", name.text(), first.span));
         }
-        let (from, to) = (self.component_named(node.from(), system), self.component_named(node.to(), system));
-        let (Some(from), Some(to), Some(kind)) = (from, to, node.kind()) else { return };
-        let size = kind.size().and_then(|size| size.text().parse().ok()).unwrap_or(2);
-        let kind = if kind.is_queue() {
-            ChannelKind::Queue { capacity: size }
-        } else if kind.is_buffer() {
-            let said = kind.master().and_then(|master| self.component_named(Some(master), system));
-            let master = said.or_else(|| master(from, to, system));
-            if master.is_none_or(|master| master != from && master != to) {
-                self.faults.push(fault::channel_master(span, name.text()));
+        let from = self.component_named(node.from(), system);
+        let mut readers: Vec<(usize, Span)> = Vec::new();
+        for reader in node.readers() {
+            let place = self.span(&reader);
+            let Some(to) = self.component_named(Some(reader), system) else { continue };
+            match readers.iter().find(|(first, _)| *first == to) {
+                Some(_) => {
+                    let reason = format!("`{}` is named twice as its reader", system.components[to].name);
+                    self.faults.push(fault::channel_ends(place, name.text(), &reason));
+                }
+                None => readers.push((to, place)),
             }
-            if !(2..=8).contains(&size) {
-                self.faults.push(fault::channel_ends(span, name.text(), "a swinging buffer has two to eight arrays"));
-            }
-            ChannelKind::Buffer { arrays: size, master: master.unwrap_or(to) }
-        } else {
-            ChannelKind::Shared
-        };
+        }
+        let (Some(from), Some(kind)) = (from, node.kind()) else { return };
         let message = self.message(node.message());
-        system.channels.push(Channel { name: name.text().to_string(), from, to, kind, message, span });
+        let ends: Vec<usize> = readers.iter().map(|(to, _)| *to).chain([from]).collect();
+        let said = kind.master().and_then(|master| self.component_named(Some(master), system));
+        if kind.is_buffer() && said.is_some_and(|said| !ends.contains(&said)) {
+            self.faults.push(fault::channel_master(span, name.text()));
+        }
+        let size = kind.size().and_then(|size| size.text().parse().ok()).unwrap_or(2);
+        if kind.is_buffer() && !(2..=8).contains(&size) {
+            self.faults.push(fault::channel_ends(span, name.text(), "a swinging buffer has two to eight arrays"));
+        }
+        let several = readers.len() > 1;
+        for (to, _) in readers {
+            let kind = if kind.is_queue() {
+                ChannelKind::Queue { capacity: size }
+            } else if kind.is_buffer() {
+                // One reader that is the master says nothing about the buffers of the others.
+                let said = said.filter(|said| !several || *said == from || *said == to);
+                let master = said.or_else(|| master(from, to, system));
+                if master.is_none() {
+                    self.faults.push(fault::channel_master(span, name.text()));
+                }
+                ChannelKind::Buffer { arrays: size, master: master.unwrap_or(to) }
+            } else {
+                ChannelKind::Shared
+            };
+            let (drawn, message) = (name.text().to_string(), message.clone());
+            let name = if several { format!("{drawn}_{}", system.components[to].name) } else { drawn.clone() };
+            let same = system.channels.iter().find(|first| first.name == name && first.drawn != drawn);
+            if let Some(first) = same {
+                self.faults.push(fault::second_channel(span, &name, first.span));
+            }
+            system.channels.push(Channel { name, drawn, from, to, kind, message, span });
+        }
     }
 
     fn phases(&mut self, index: usize, node: &ast::Component, system: &mut System) {
         if let (Timing::Asynchronous { .. }, Some(name)) =
             (system.components[index].timing, node.kind().and_then(|kind| kind.awaits()))
         {
-            let awaits = self.channel_named(&name, system);
+            let awaits = self.channel_read(&name, index, system);
             if awaits.is_some_and(|channel| system.channels[channel].to != index) {
                 self.faults.push(fault::channel_ends(self.span(&name), name.text(), "the component does not read it"));
             }
@@ -308,41 +343,49 @@ impl Reader {
             let (Some(kind), Some(subject)) = (phase.kind(), phase.subject()) else { continue };
             let span = self.span(&subject);
             let owner = system.components[index].name.clone();
-            let (action, word) = match kind {
+            let (actions, word) = match kind {
                 PhaseKind::Elaborate => {
-                    (Some(Action::Elaborate(phase.link().and_then(|node| link(self.file, &node)))), "")
+                    (vec![Action::Elaborate(phase.link().and_then(|node| link(self.file, &node)))], "")
                 }
-                PhaseKind::Read => (self.channel_named(&subject, system).map(Action::Read), "read_"),
-                PhaseKind::Write => (self.channel_named(&subject, system).map(Action::Write), "write_"),
+                PhaseKind::Read => {
+                    (self.channel_read(&subject, index, system).into_iter().map(Action::Read).collect(), "read_")
+                }
+                PhaseKind::Write => {
+                    (self.channels_named(&subject, system).into_iter().map(Action::Write).collect(), "write_")
+                }
             };
-            let Some(action) = action else { continue };
-            let end = match action {
-                Action::Read(channel) => Some(system.channels[channel].to),
-                Action::Write(channel) => Some(system.channels[channel].from),
-                Action::Elaborate(_) => None,
+            let end = match actions.first() {
+                Some(Action::Read(channel)) => Some(system.channels[*channel].to),
+                Some(Action::Write(channel)) => Some(system.channels[*channel].from),
+                Some(Action::Elaborate(_)) => None,
+                None => continue,
             };
             if end.is_some_and(|end| end != index) {
                 let reason = format!("the component `{owner}` is not at this end of it");
                 self.faults.push(fault::channel_ends(span, subject.text(), &reason));
             }
-            let name = match phase.name() {
+            let drawn = match phase.name() {
                 Some(name) => name.text().to_string(),
                 None => format!("{owner}_{word}{}", subject.text()),
             };
-            let all = system.components.iter().flat_map(|component| &component.phases);
-            if let Some(first) = all.into_iter().find(|first| first.name == name) {
-                self.faults.push(fault::duplicate(span, "phase", &name, first.span));
-            }
             let (least, time) = self.durations(&phase, system.tick_ns);
-            system.components[index].phases.push(Phase {
-                name,
-                subject: subject.text().to_string(),
-                action,
-                time,
-                least,
-                machine: phase.machine().map(|name| Named { text: name.text().to_string(), span: self.span(&name) }),
-                span,
-            });
+            let machine = phase.machine().map(|name| Named { text: name.text().to_string(), span: self.span(&name) });
+            let several = actions.len() > 1;
+            for action in actions {
+                let name = match &action {
+                    Action::Write(channel) if several => {
+                        format!("{drawn}_{}", system.components[system.channels[*channel].to].name)
+                    }
+                    Action::Write(_) | Action::Read(_) | Action::Elaborate(_) => drawn.clone(),
+                };
+                let all = system.components.iter().flat_map(|component| &component.phases);
+                if let Some(first) = all.into_iter().find(|first| first.name == name) {
+                    self.faults.push(fault::duplicate(span, "phase", &name, first.span));
+                }
+                let (drawn, subject, machine) = (drawn.clone(), subject.text().to_string(), machine.clone());
+                let phase = Phase { name, drawn, subject, action, time, least, machine, span };
+                system.components[index].phases.push(phase);
+            }
         }
     }
 
@@ -357,19 +400,18 @@ impl Reader {
         let does = |component: usize, wanted: &Action| {
             system.components[component].phases.iter().filter(|phase| phase.action == *wanted).count()
         };
-        if does(channel.from, &Action::Write(index)) != 1 {
-            self.faults.push(fault::channel_ends(
-                channel.span,
-                &channel.name,
-                "its sender does not write it once a cycle",
-            ));
+        // What several readers get is written by one phase of the text.
+        let is_first = system.channels[..index].iter().all(|other| other.drawn != channel.drawn);
+        if is_first && does(channel.from, &Action::Write(index)) != 1 {
+            let reason = "its sender does not write it once a cycle";
+            self.faults.push(fault::channel_ends(channel.span, &channel.drawn, reason));
         }
         if does(channel.to, &Action::Read(index)) != 1 {
-            self.faults.push(fault::channel_ends(
-                channel.span,
-                &channel.name,
-                "its receiver does not read it once a cycle",
-            ));
+            let reason = match channel.name == channel.drawn {
+                true => "its receiver does not read it once a cycle".to_string(),
+                false => format!("`{}` does not read it once a cycle", system.components[channel.to].name),
+            };
+            self.faults.push(fault::channel_ends(channel.span, &channel.drawn, &reason));
         }
     }
 }

@@ -6,7 +6,7 @@ use chart::system::{Action, System, Timing};
 
 use super::machines::elaboration;
 use super::names::{hook, member, pascal};
-use super::plan::{Access, Form, access, numbers, places};
+use super::plan::{Access, Form, access, copies, numbers, places};
 
 /// The function for the cycle of the component with this index.
 pub(super) fn cycle(text: &mut String, system: &System, index: usize, form: &Form) {
@@ -31,19 +31,27 @@ pub(super) fn cycle(text: &mut String, system: &System, index: usize, form: &For
                         write!(text, "            {assigned}phases.decide({number}, [&] {{\n{body}            }});\n");
                     continue;
                 }
+                let copies = copies(system, index, form);
+                let call = format!("hooks_.{}.{}(cycle, {name}_in_, out);", member(name), hook(&phase.subject));
+                let call = match &copies[..] {
+                    [] => format!("return {call}"),
+                    copies => format!(
+                        "const bool done = {call}\n                if (done) {{\n                    {}\n                }}\n                \
+                         return done;",
+                        copies.join("\n                    ")
+                    ),
+                };
                 let _ = write!(
                     text,
                     "            {assigned}phases.elaborate({number}, [&] {{\n                typename {}::Out out{{{}}};\n                \
-                     return hooks_.{}.{}(cycle, {name}_in_, out);\n            }});\n",
+                     {call}\n            }});\n",
                     pascal(name),
                     places(system, index, form),
-                    member(name),
-                    hook(&phase.subject)
                 );
             }
             Action::Read(channel) => {
                 let channel = &system.channels[channel];
-                let seen = format!("{name}_in_.{}", member(&channel.name));
+                let seen = format!("{name}_in_.{}", member(&channel.drawn));
                 let call = match access(channel, index, form) {
                     Access::InPlace | Access::Cell => {
                         format!("read_in_place({number}, {0}_channel_, {seen})", channel.name)

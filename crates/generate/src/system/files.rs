@@ -5,7 +5,7 @@ use std::fmt::Write;
 
 use chart::system::{Action, Component, System};
 
-use super::names::{datum, hook, member, pascal};
+use super::names::{datum, hook, member, pascal, readers};
 
 pub(super) fn data(system: &System, space: &str) -> String {
     let mut text = format!(
@@ -13,9 +13,11 @@ pub(super) fn data(system: &System, space: &str) -> String {
          //\n// A function `bool valid(const T&)` beside a type says which data may be handed over: one that is not valid is not\n\
          // published, but counted.\n#pragma once\n\nnamespace {space} {{\n"
     );
-    for channel in system.channels.iter().filter(|channel| channel.message.is_none()) {
-        let (from, to) = (&system.components[channel.from].name, &system.components[channel.to].name);
-        let _ = write!(text, "\n/// From {from} to {to}.\nstruct {} {{\n}};\n", datum(system, &channel.name));
+    let drawn = system.channels.chunk_by(|one, next| one.drawn == next.drawn);
+    for channels in drawn.filter(|channels| channels[0].message.is_none()) {
+        let from = &system.components[channels[0].from].name;
+        let to = readers(system, channels);
+        let _ = write!(text, "\n/// From {from} to {to}.\nstruct {} {{\n}};\n", datum(system, &channels[0].drawn));
     }
     let _ = writeln!(text, "\n}}  // namespace {space}");
     text

@@ -8,7 +8,7 @@ use chart::system::{Action, Channel, ChannelKind, Component, System, Timing};
 use super::cycle::cycle;
 use super::machines::{devices, has_messages};
 use super::names::{datum, hook, member, pascal};
-use super::plan::{Access, Form, access, ends, numbers, ranks, stopping};
+use super::plan::{Access, Form, access, ends, numbers, prepared, ranks, stopping};
 
 /// The text of the header.
 pub(super) fn header(system: &System, file: &str, name: &str, form: &Form) -> String {
@@ -60,7 +60,7 @@ fn hook_class(text: &mut String, system: &System, component: &Component, form: &
     let when = match component.timing {
         Timing::Synchronous { period, .. } => format!("every {}", duration(period * system.tick_ns)),
         Timing::Asynchronous { awaits: Some(channel) } => {
-            format!("when there is something new in {}", system.channels[channel].name)
+            format!("when there is something new in {}", system.channels[channel].drawn)
         }
         Timing::Asynchronous { awaits: None } => "again and again".to_string(),
     };
@@ -68,7 +68,7 @@ fn hook_class(text: &mut String, system: &System, component: &Component, form: &
     let (read, written) = ends(component);
     text.push_str("    struct In {\n");
     for channel in read {
-        let name = &system.channels[channel].name;
+        let name = &system.channels[channel].drawn;
         let _ = writeln!(text, "        Seen<{}> {}{{}};", datum(system, name), member(name));
     }
     let (sensors, actuators) = devices(system, component, form);
@@ -76,8 +76,8 @@ fn hook_class(text: &mut String, system: &System, component: &Component, form: &
         let _ = writeln!(text, "        {value} {}{{}};", member(&device.name));
     }
     text.push_str("    };\n    struct Out {\n");
-    for channel in written {
-        let name = &system.channels[channel].name;
+    for channel in prepared(system, &written) {
+        let name = &system.channels[channel].drawn;
         let _ = writeln!(text, "        {}& {};", datum(system, name), member(name));
     }
     for (device, value) in &actuators {
@@ -224,7 +224,7 @@ fn members(text: &mut String, system: &System, form: &Form) {
     let numbers = numbers(system);
     text.push_str("    Hooks hooks_;\n");
     for (index, channel) in system.channels.iter().enumerate() {
-        let datum = datum(system, &channel.name);
+        let datum = datum(system, &channel.drawn);
         let period = |component: usize| system.components[component].timing.period().unwrap_or(u64::MAX);
         let side = |is_consumer: bool| if is_consumer { "Side::consumer" } else { "Side::producer" };
         let (kind, master) = match channel.kind {
@@ -256,9 +256,9 @@ fn members(text: &mut String, system: &System, form: &Form) {
         let _ = writeln!(text, "    typename {0}::In {1}_in_{{}};", pascal(&component.name), component.name);
         for channel in read.iter().map(|channel| &system.channels[*channel]) {
             match access(channel, index, form) {
-                Access::Copy => _ = writeln!(text, "    {} {}_copy_{{}};", datum(system, &channel.name), channel.name),
+                Access::Copy => _ = writeln!(text, "    {} {}_copy_{{}};", datum(system, &channel.drawn), channel.name),
                 Access::Message => {
-                    let message = format!("std::optional<groundstate::Message<{}>>", datum(system, &channel.name));
+                    let message = format!("std::optional<groundstate::Message<{}>>", datum(system, &channel.drawn));
                     let _ = writeln!(text, "    {message} {}_last_{{}};", channel.name);
                 }
                 Access::InPlace | Access::Cell => {}
@@ -267,10 +267,10 @@ fn members(text: &mut String, system: &System, form: &Form) {
         for channel in written.iter().map(|channel| &system.channels[*channel]) {
             match access(channel, index, form) {
                 Access::Copy => {
-                    _ = writeln!(text, "    {} {}_staged_{{}};", datum(system, &channel.name), channel.name)
+                    _ = writeln!(text, "    {} {}_staged_{{}};", datum(system, &channel.drawn), channel.name)
                 }
                 Access::Message => {
-                    let message = format!("groundstate::Message<{}>", datum(system, &channel.name));
+                    let message = format!("groundstate::Message<{}>", datum(system, &channel.drawn));
                     let _ = writeln!(text, "    {message} {}_staged_{{}};", channel.name);
                 }
                 Access::InPlace | Access::Cell => {}

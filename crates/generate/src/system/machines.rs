@@ -10,8 +10,8 @@ use std::fmt::Write;
 use chart::system::{Action, Component, Device, System};
 use chart::{ComponentMachine, Content, Feed, Take};
 
-use super::names::{datum, hook, member, pascal};
-use super::plan::{Form, MachineClass, numbers, places};
+use super::names::{datum, hook, member, pascal, readers};
+use super::plan::{Form, MachineClass, copies, numbers, places};
 
 /// Whether the chart says what some channel or device carries.
 pub(super) fn has_messages(system: &System) -> bool {
@@ -64,13 +64,15 @@ pub(super) fn messages(system: &System, file: &str, space: &str) -> String {
             let _ = writeln!(text, "\nenum class {} : std::uint32_t {{ {} }};", member(name), literals.join(", "));
         }
     }
-    for channel in &system.channels {
-        let Some(content) = system.computing.contents.get(&channel.name) else { continue };
-        let (from, to) = (&system.components[channel.from].name, &system.components[channel.to].name);
+    for channels in system.channels.chunk_by(|one, next| one.drawn == next.drawn) {
+        let channel = &channels[0];
+        let Some(content) = system.computing.contents.get(&channel.drawn) else { continue };
+        let from = &system.components[channel.from].name;
+        let to = readers(system, channels);
         let _ = write!(
             text,
             "\n/// From {from} to {to}.\nstruct {} {{\n    {} value{{}};\n    bool known = true;  ///< false: undef, whatever the value\n}};\n",
-            datum(system, &channel.name),
+            datum(system, &channel.drawn),
             type_of(content)
         );
     }
@@ -121,11 +123,13 @@ fn one(text: &mut String, system: &System, machine: &ComponentMachine, class: &M
          inputs_.in = &in;\n        groundstate::made(machine_.step(), \"{made}\");\n",
         hook(&phase.subject)
     );
-    for (function, take) in &machine.takes {
+    for (at, (function, take)) in machine.takes.iter().enumerate() {
         let called = class.called(function);
         match take {
+            // The next reader of the same channel.
+            Take::Channel(_) if at > 0 && machine.takes[at - 1].0 == *function => {}
             Take::Channel(channel) => {
-                let out = member(&system.channels[*channel].name);
+                let out = member(&system.channels[*channel].drawn);
                 let _ = writeln!(
                     text,
                     "        out.{out}.known = groundstate::decided(machine_.{called}(), out.{out}.value);"
@@ -177,11 +181,11 @@ fn one(text: &mut String, system: &System, machine: &ComponentMachine, class: &M
         let answer = format!("decltype(std::declval<::{space}::Environment&>().{called}())");
         let value = match feed {
             Feed::Channel(channel) => {
-                let read = member(&system.channels[*channel].name);
+                let read = member(&system.channels[*channel].drawn);
                 format!("in == nullptr ? Answer{{}} : groundstate::carried<Answer{domains}>(in->{read})")
             }
             Feed::IsNew(channel) => {
-                let read = member(&system.channels[*channel].name);
+                let read = member(&system.channels[*channel].drawn);
                 format!("in == nullptr ? Answer{{}} : Answer{{in->{read}.fresh}}")
             }
             Feed::Sensor(device) => {
@@ -205,7 +209,7 @@ fn one(text: &mut String, system: &System, machine: &ComponentMachine, class: &M
 /// The tuples that feed a machine.
 fn fed_tuples<'s>(system: &'s System, machine: &ComponentMachine) -> Vec<&'s Content> {
     let carried = |(_, feed): &(String, Feed)| match feed {
-        Feed::Channel(channel) => system.computing.contents.get(&system.channels[*channel].name),
+        Feed::Channel(channel) => system.computing.contents.get(&system.channels[*channel].drawn),
         Feed::Sensor(device) => system.computing.contents.get(&system.devices[*device].name),
         Feed::IsNew(_) => None,
     };
@@ -256,7 +260,7 @@ pub(super) fn elaboration(system: &System, index: usize, phase: usize, form: &Fo
                 got.push(format!("phases.senses({number}, {name}_in_.{read});"));
             }
             Feed::Channel(channel) | Feed::IsNew(channel) => {
-                let (read, number) = (member(&system.channels[*channel].name), numbers.channels + channel);
+                let (read, number) = (member(&system.channels[*channel].drawn), numbers.channels + channel);
                 let call = format!("phases.gets({number}, {name}_in_.{read});");
                 if !got.contains(&call) {
                     got.push(call);
@@ -280,7 +284,7 @@ pub(super) fn elaboration(system: &System, index: usize, phase: usize, form: &Fo
     for (_, take) in &machine.takes {
         match take {
             Take::Channel(channel) => {
-                let (written, number) = (member(&system.channels[*channel].name), numbers.channels + channel);
+                let (written, number) = (member(&system.channels[*channel].drawn), numbers.channels + channel);
                 line(format!("phases.decides({number}, out.{written}.value, done && out.{written}.known);"));
             }
             Take::Actuator(device) => {
@@ -293,6 +297,12 @@ pub(super) fn elaboration(system: &System, index: usize, phase: usize, form: &Fo
                 line("}".to_string());
             }
         }
+    }
+    let copies = copies(system, index, form);
+    if !copies.is_empty() {
+        line("if (done) {".to_string());
+        copies.iter().for_each(|copy| line(format!("    {copy}")));
+        line("}".to_string());
     }
     line("return done;".to_string());
     Some(text)

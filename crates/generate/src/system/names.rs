@@ -1,7 +1,7 @@
 //! Turns names of the chart into C++ names: types in PascalCase, functions in snake_case.
 
 use chart::Content;
-use chart::system::System;
+use chart::system::{Channel, System};
 
 use crate::names::{is_reserved, snake};
 
@@ -12,13 +12,18 @@ pub(super) fn pascal(name: &str) -> String {
     member(&joined)
 }
 
-/// The type of a channel's data: its name, or `PositionDatum` where a domain of the data or a component makes the type `Position`.
+/// The type of a drawn channel's data: its name, or `PositionDatum` where a domain of the data or a component makes the type `Position`.
 pub(super) fn datum(system: &System, channel: &str) -> String {
     let made = pascal(channel);
     let mut enums = system.computing.contents.values().flat_map(Content::enums);
     let is_taken = enums.any(|(name, _)| member(name) == made)
         || system.components.iter().any(|component| pascal(&component.name) == made);
     if is_taken { format!("{made}Datum") } else { made }
+}
+
+/// The readers of a channel that is drawn as one, in words.
+pub(super) fn readers(system: &System, channels: &[Channel]) -> String {
+    channels.iter().map(|channel| system.components[channel.to].name.as_str()).collect::<Vec<_>>().join(", ")
 }
 
 /// A name as that of a member; a `_` is appended if the name has a meaning in C++.

@@ -35,7 +35,7 @@ pub fn ungenerated(system: &System) -> Vec<Diagnostic> {
     }
     let computing = &system.computing;
     let said = |name: &str| {
-        let channels = system.channels.iter().map(|channel| (&channel.name, &channel.message));
+        let channels = system.channels.iter().map(|channel| (&channel.drawn, &channel.message));
         let devices = system.devices.iter().map(|device| (&device.name, &device.message));
         let found = channels.chain(devices).find(|(known, _)| *known == name);
         found.and_then(|(_, message)| message.as_ref()).map_or(system.span, |message| message.span)
@@ -78,7 +78,8 @@ pub fn ungenerated(system: &System) -> Vec<Diagnostic> {
         }
         types.push((super::machines::name(component), component.span));
     }
-    let channels = system.channels.iter().map(|channel| (&channel.name, datum(system, &channel.name), channel.span));
+    let drawn = system.channels.chunk_by(|one, next| one.drawn == next.drawn).map(|channels| &channels[0]);
+    let channels = drawn.map(|channel| (&channel.drawn, datum(system, &channel.drawn), channel.span));
     let components = system.components.iter().map(|one| (&one.name, pascal(&one.name), one.span));
     for (name, made, span) in channels.chain(components) {
         match types.iter().find(|(known, _)| *known == made) {

@@ -1,7 +1,7 @@
 //! Arrows: paths of a machine that are begun, continued and split; connections of a system.
 
 use syntax::SyntaxKind::*;
-use syntax::ast::{AstNode, ChartPath, MachineChart, PathStop, Shape};
+use syntax::ast::{AstNode, Channel, ChartPath, MachineChart, PathStop, PhaseKind, Shape};
 use syntax::{SyntaxNode, SyntaxToken};
 
 use super::{Section, Work};
@@ -86,6 +86,12 @@ impl Work {
         match self.section()? {
             Section::System(system) => {
                 let of = |token: Option<SyntaxToken>| token.map(|token| token.text().to_string());
+                let channel = system.channels().find(|channel| of(channel.name()).as_deref() == Some(&joint.from));
+                if let Some(channel) = channel
+                    && channel.readers().any(|reader| reader.text() == joint.to)
+                {
+                    return self.remove_reader(&channel, joint);
+                }
                 let found = system.connections().find(|connection| {
                     of(connection.from()).as_deref() == Some(&joint.from)
                         && of(connection.to()).as_deref() == Some(&joint.to)
@@ -97,6 +103,25 @@ impl Work {
                 let found = find(&machine, |other| other == joint).ok_or_else(|| no_arrow(joint))?;
                 self.split(&found);
             }
+        }
+        Ok(())
+    }
+
+    /// Takes one of several readers of a channel away, with the phase in which it reads.
+    fn remove_reader(&mut self, channel: &Channel, joint: &Joint) -> Result<(), String> {
+        if channel.readers().count() < 2 {
+            return Err(format!("`{}` has one reader: delete the channel instead", joint.from));
+        }
+        self.leave_readers(channel, &joint.to);
+        while let Section::System(system) = self.section()?
+            && let Some(component) =
+                system.components().find(|part| part.name().is_some_and(|name| name.text() == joint.to))
+            && let Some(phase) = component.phases().find(|phase| {
+                phase.kind() == Some(PhaseKind::Read)
+                    && phase.subject().is_some_and(|subject| subject.text() == joint.from)
+            })
+        {
+            self.remove(phase.syntax());
         }
         Ok(())
     }

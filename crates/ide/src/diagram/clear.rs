@@ -1,7 +1,7 @@
 //! What goes: shapes with all that hangs on them, and the lines they stand in.
 
 use syntax::SyntaxNode;
-use syntax::ast::{AstNode, PhaseKind};
+use syntax::ast::{AstNode, Channel, PhaseKind};
 
 use super::arrow::words;
 use super::{Section, Work};
@@ -45,9 +45,17 @@ impl Work {
             .or_else(|| system.channels().find(|channel| is(channel.name())).map(|channel| channel.syntax().clone()))
             .or_else(|| system.devices().find(|device| is(device.name())).map(|device| device.syntax().clone()));
         own.ok_or_else(|| format!("there is no component, channel or device `{name}`"))?;
+        while let Section::System(system) = self.section()?
+            && let Some(channel) = system.channels().find(|channel| {
+                channel.readers().count() > 1 && !is(channel.from()) && channel.readers().any(|one| is(Some(one)))
+            })
+        {
+            self.leave_readers(&channel, name);
+        }
         // Channels of a component first: phases of others read and write them.
         while let Section::System(system) = self.section()?
-            && let Some(channel) = system.channels().find(|channel| is(channel.from()) || is(channel.to()))
+            && let Some(channel) =
+                system.channels().find(|channel| is(channel.from()) || channel.readers().any(|one| is(Some(one))))
             && let Some(other) = channel.name()
         {
             let other = other.text().to_string();
@@ -78,6 +86,23 @@ impl Work {
             self.remove(&own);
         }
         Ok(())
+    }
+
+    /// Takes a component out of the several readers of a channel. What it was the master of goes with it.
+    pub(super) fn leave_readers(&mut self, channel: &Channel, name: &str) {
+        // From the back, so that the places before it stay.
+        if let Some(master) = channel.kind().and_then(|kind| kind.master()).filter(|master| master.text() == name) {
+            let end = usize::from(master.text_range().end());
+            let words = words(channel.syntax());
+            let before = words.iter().rev().skip_while(|word| **word != master).nth(2);
+            let start = before.map_or(end, |word| usize::from(word.text_range().end()));
+            self.replace(start..end, "");
+        }
+        let readers: Vec<_> = channel.readers().collect();
+        let left: Vec<&str> = readers.iter().map(|reader| reader.text()).filter(|reader| *reader != name).collect();
+        let (Some(first), Some(last)) = (readers.first(), readers.last()) else { return };
+        let range = usize::from(first.text_range().start())..usize::from(last.text_range().end());
+        self.replace(range, &left.join(", "));
     }
 
     /// Takes a shape out of what is done in sequence; one alone is no sequence.

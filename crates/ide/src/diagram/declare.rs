@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use syntax::SyntaxKind::{self, *};
 use syntax::SyntaxNode;
-use syntax::ast::{AstNode, Shape};
+use syntax::ast::{AstNode, Channel, Shape};
 
 use super::arrow::words;
 use super::name::{in_camel_case, is_name};
@@ -184,7 +184,7 @@ impl Work {
         Ok(())
     }
 
-    /// An arrow of a system: a connection with a device, or a channel between components.
+    /// An arrow of a system: a connection with a device, a channel between components, or another reader of a channel.
     pub(super) fn connect_parts(&mut self, from: &str, to: &str) -> Result<(), String> {
         let Section::System(system) = self.section()? else { return Ok(()) };
         let of = |token: Option<syntax::SyntaxToken>| token.map(|token| token.text().to_string());
@@ -193,6 +193,9 @@ impl Work {
         let is_device = |name: &str| system.devices().any(|device| of(device.name()).as_deref() == Some(name));
         if from == to {
             return Err("a component needs no channel to itself".to_string());
+        }
+        if let Some(channel) = system.channels().find(|channel| of(channel.name()).as_deref() == Some(from)) {
+            return self.add_reader(&channel, from, to, is_component(to));
         }
         let known = |name: &str| match is_component(name) || is_device(name) {
             true => Ok(()),
@@ -219,6 +222,23 @@ impl Work {
         )?;
         self.select = vec![name];
         Ok(())
+    }
+
+    /// One more component that reads a channel.
+    fn add_reader(&mut self, channel: &Channel, name: &str, to: &str, is_component: bool) -> Result<(), String> {
+        let readers: Vec<_> = channel.readers().collect();
+        let Some(last) = readers.last().filter(|_| is_component) else {
+            return Err(format!("the readers of the channel `{name}` are components"));
+        };
+        if channel.from().is_some_and(|writer| writer.text() == to) {
+            return Err(format!("`{to}` writes the channel `{name}`"));
+        }
+        if readers.iter().any(|reader| reader.text() == to) {
+            return Ok(());
+        }
+        let at = usize::from(last.text_range().end());
+        self.replace(at..at, &format!(", {to}"));
+        self.add_phase(to, &format!("read {name}"), true)
     }
 
     /// A phase of a component, at the beginning or the end of its cycle.

@@ -95,6 +95,38 @@ fn channels_devices_and_the_system() {
 }
 
 #[test]
+fn readers_of_a_channel() {
+    let arrow = |from: &str, to: &str| Joint { from: from.into(), branch: None, to: to.into() };
+    let several =
+        SYSTEM.replace("\n\tchannel", "\n\tcomponent log asynchronous\n\t\telaborate note\n\tendcomponent\n\tchannel");
+    let done = |text: &str, operation: &Operation| {
+        let drawn = drawn(text, "s", operation, &BTreeMap::new())?;
+        Ok::<String, String>(crate::edited(text, &drawn.edit.into_iter().collect::<Vec<_>>()))
+    };
+    let two = done(&several, &Operation::Connect(arrow("seen", "log"))).expect("one more reader");
+    assert_eq!(
+        two,
+        several.replace("to act queue", "to act, log queue").replace("elaborate note", "read seen\n\t\telaborate note")
+    );
+    assert_eq!(done(&two, &Operation::Connect(arrow("seen", "log"))).as_deref(), Ok(two.as_str()));
+    assert_eq!(done(&two, &Operation::Disconnect(arrow("seen", "log"))).as_deref(), Ok(several.as_str()));
+    let told = done(&several, &Operation::Disconnect(arrow("seen", "act"))).expect_err("the only reader");
+    assert_eq!(told, "`seen` has one reader: delete the channel instead");
+    assert_eq!(
+        done(&two, &Operation::Connect(arrow("seen", "eye"))),
+        Err("the readers of the channel `seen` are components".into())
+    );
+    assert_eq!(done(&two, &Operation::Connect(arrow("seen", "look"))), Err("`look` writes the channel `seen`".into()));
+    // A component that goes takes itself out of the readers, and what it was the master of.
+    let mastered = two.replace("queue 4", "swinging buffer 2 master log");
+    let gone = done(&mastered, &Operation::Delete(vec!["log".into()])).expect("it can go");
+    assert!(gone.contains("channel seen : Integer from look to act swinging buffer 2 // full\n"), "{gone}");
+    assert!(gone.contains("read seen as take") && !gone.contains("log"), "{gone}");
+    let gone = done(&two, &Operation::Delete(vec!["look".into()])).expect("it can go");
+    assert!(!gone.contains("channel"), "{gone}");
+}
+
+#[test]
 fn what_is_no_value_is_refused() {
     let told = |operation: &Operation| after(operation).expect_err("it is refused");
     for value in [

@@ -17,7 +17,7 @@ nodes! {
     ComponentKind = COMPONENT_KIND,
     /// `read CHANNEL as NAME Q`, `elaborate NAME Q by NAME {rule}`, `write CHANNEL as NAME Q`
     Phase = PHASE,
-    /// `channel NAME : DOMAIN from NAME to NAME KIND`
+    /// `channel NAME : DOMAIN from NAME to NAME, NAME KIND`
     Channel = CHANNEL,
     /// `swinging buffer N master NAME`, `queue N`, `shared value`
     ChannelKind = CHANNEL_KIND,
@@ -203,9 +203,9 @@ impl Channel {
     pub fn from(&self) -> Option<SyntaxToken> {
         names(self.syntax()).nth(1)
     }
-    /// The component that reads.
-    pub fn to(&self) -> Option<SyntaxToken> {
-        names(self.syntax()).nth(2)
+    /// The components that read.
+    pub fn readers(&self) -> impl Iterator<Item = SyntaxToken> {
+        names(self.syntax()).skip(2)
     }
     /// What it is made of.
     pub fn kind(&self) -> Option<ChannelKind> {

@@ -170,7 +170,7 @@ fn phase(p: &mut Parser<'_>) {
     p.finish();
 }
 
-/// `channel NAME : DOMAIN from NAME to NAME KIND`
+/// `channel NAME : DOMAIN from NAME to NAME, NAME KIND`
 fn channel(p: &mut Parser<'_>) {
     p.start(CHANNEL);
     p.bump_as(CHANNEL_KW);
@@ -181,7 +181,7 @@ fn channel(p: &mut Parser<'_>) {
     if named && expect_word(p, FROM_KW, "behind the name of a channel") {
         shape_name(p);
         if expect_word(p, TO_KW, "behind the sender of a channel") {
-            shape_name(p);
+            while shape_name(p) && p.eat(COMMA) {}
         }
         channel_kind(p);
     }
