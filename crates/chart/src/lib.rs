@@ -32,7 +32,9 @@ mod ways;
 mod write;
 pub mod xml;
 
-pub use build::{Built, Known, Lengths, Unknown, build, communication, library, unbuilt, unverified, verified};
+pub use build::{
+    Built, Extent, Known, Lengths, Unknown, build, kept, library, sliced, unbuilt, unverified, verifiable, verified,
+};
 pub use chart::{
     Arrow, Chart, Composite, Control, End, Layout, Machine, Parameter, Pattern, Refinement, Shape, ShapeId, ShapeKind,
     WORDS,

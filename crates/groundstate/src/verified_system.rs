@@ -2,28 +2,32 @@
 //!
 //! In: a chart's text and a [`Loader`]. Out: two loaded models: the verified one, which is made of the chart alone, and the ground
 //! model that `chart build` makes, which is what the verdicts are about. INVARIANT: both use the same modules of the pattern library,
-//! those that the chart imports; and nothing of a user's elaborations is part of either, so that no property can speak of what is not
-//! computed.
+//! those that the chart imports; and nothing of what a user's rules compute is part of either, nor of what machines decide unless data
+//! are asked for, so that no property can speak of what is not computed.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
+use std::sync::Arc;
 
-use chart::{Chart, Known, Lengths};
-use conform::{Event, Events};
-use machine::{Choice, Closed, Environment, Limits, Location, LocationRef, TimeUnit, Value};
+use chart::{Chart, ComponentMachine, Extent, Known, Lengths};
+use conform::Events;
+use machine::{Choice, Closed, Environment, Limits, Location, LocationRef, Show, TimeUnit, Value};
 use model::Loader;
 use program::{DomainId, Expression, FunctionKind, Program, PropertyKind, Term};
 use syntax::{FileId, Parse, SourceFile, Sources, Stop};
 use verify::{Subject, Trace};
 
 use crate::build::Located;
+use crate::simulate::read_value;
 use crate::{Loaded, has_errors, load, patterns};
 
 /// A system to verify.
 #[derive(Debug)]
 pub struct VerifiedSystem {
     /// The chart.
-    pub chart: Chart,
+    pub whole: Chart,
+    /// The chart with the machines that are a part of what is verified, if any are.
+    chart: Chart,
     /// The model to search.
     pub loaded: Loaded,
     /// The same, with elaborations of asynchronous components that take any time. What holds of it holds of `loaded`, and it has far
@@ -31,19 +35,23 @@ pub struct VerifiedSystem {
     pub general: Option<Loaded>,
     /// The warnings of the chart.
     pub warnings: Located,
-    /// The ground model of the same chart, without what elaborations compute.
+    /// The ground model of the same chart, without what elaborations compute; with data, with what machines decide.
     pub ground: Loaded,
+    /// Whether what machines decide is a part of it.
+    pub extent: Extent,
 }
 
 const VERIFICATION: &str = "verification/";
 
-/// Makes the model that verifies the system of a chart. Its formulas may use the operators of these `libraries`, besides those of CTL.
+/// Makes the model that verifies the system of a chart. Its formulas may use the operators of these `libraries`, besides those of CTL. What
+/// machines decide is a part of it, as far as a function rests on it that properties speak of.
 ///
 /// # Errors
 /// The faults of the chart and of its imports, grouped by their texts. At least one of them is an error.
 pub fn verified_system(
     root: SourceFile,
     libraries: &[&str],
+    speaks_of: &dyn Fn(&str) -> bool,
     loader: &mut dyn Loader,
 ) -> Result<Box<VerifiedSystem>, Vec<Located>> {
     let chart::Loaded { sources, mut chart, diagnostics } = chart::load(root.clone(), loader);
@@ -59,12 +67,15 @@ pub fn verified_system(
     if has_errors(&unverified) {
         return Err(vec![(sources, unverified)]);
     }
-    let text = |lengths| chart::verified(&chart, libraries, lengths);
+    let sliced = chart::sliced(&chart, speaks_of);
+    let extent = if sliced.is_some() { Extent::WithData } else { Extent::Communication };
+    let (chart, whole) = (sliced.unwrap_or_else(|| chart.clone()), chart);
+    let text = |lengths| chart::verified(&chart, libraries, lengths, extent);
     let (Some(library), Some(drawn), Some(any)) = (chart::library(&chart), text(Lengths::AsDrawn), text(Lengths::Any))
     else {
         unreachable!("what has no system or no library was reported above")
     };
-    let ground = match chart::build(&chart::communication(&chart), &known, None) {
+    let ground = match chart::build(&chart::verifiable(&chart, extent), &known, None) {
         Ok(built) => built.text,
         Err(faults) => return Err(vec![(Sources::default(), faults)]),
     };
@@ -77,7 +88,7 @@ pub fn verified_system(
     let general = if any == drawn { None } else { Some(load_as(name.clone(), any)?) };
     let loaded = load_as(name, drawn)?;
     let ground = load_as(format!("{folder}{}.asm", chart.name), ground)?;
-    Ok(Box::new(VerifiedSystem { chart, loaded, general, warnings: (sources, diagnostics), ground }))
+    Ok(Box::new(VerifiedSystem { whole, chart, loaded, general, warnings: (sources, diagnostics), ground, extent }))
 }
 
 /// The libraries of a verified model: the verification library is the built-in one, the pattern library that of the chart.
@@ -143,8 +154,8 @@ const KEPT: [&str; 24] = [
 const KEPT_DERIVED: [&str; 6] = ["dataAvailable", "mq_length", "patternsSound", "sv_isNew", "thereIsTime", "trigger"];
 
 /// The functions that a term reads and that a verified model does not keep, or not for every length of an elaboration: what is true of
-/// them there need not be true of the system.
-pub fn not_kept(program: &Program, expression: &Expression) -> Vec<String> {
+/// them there need not be true of the system. Besides those of the patterns, it keeps these, of machines, sensors and actuators.
+pub fn not_kept(program: &Program, expression: &Expression, data: &[String]) -> Vec<String> {
     let mut found = BTreeSet::new();
     let mut entered = BTreeSet::new();
     let mut open = vec![expression.body];
@@ -154,6 +165,7 @@ pub fn not_kept(program: &Program, expression: &Expression) -> Vec<String> {
             let name = declared.name.as_str();
             match &declared.definition {
                 Some(_) if KEPT_DERIVED.contains(&name) => {}
+                _ if data.iter().any(|kept| kept == name) => {}
                 Some(definition) => {
                     if entered.insert(*function) {
                         open.push(definition.body);
@@ -171,15 +183,47 @@ pub fn not_kept(program: &Program, expression: &Expression) -> Vec<String> {
 /// A counterexample as a run of the ground model.
 #[derive(Debug)]
 pub struct GroundRun {
-    /// What happens: the tick, the task, the event.
-    pub events: Vec<(u64, String, Event)>,
+    /// What happens.
+    pub events: Vec<Told>,
     /// Whether the last state violates the property, too; none if the ground model has no words for it.
     pub violates: Option<bool>,
     /// Why the last step cannot be made, if that is what is wrong.
     pub fault: Option<String>,
 }
 
+/// Something that happens in a run.
+#[derive(Debug, Clone)]
+pub struct Told {
+    /// When.
+    pub tick: u64,
+    /// The task.
+    pub task: String,
+    /// What it does, in words.
+    pub words: String,
+    /// It is what comes in or what a machine decides.
+    pub is_data: bool,
+}
+
 impl VerifiedSystem {
+    /// The components whose machines are a part of what is verified, and those whose machines are not.
+    pub fn machines(&self) -> (Vec<&ComponentMachine>, Vec<&ComponentMachine>) {
+        let computing = |chart: &'_ Chart| -> Vec<usize> {
+            let system = chart.system.iter().flat_map(|system| &system.computing.machines);
+            system.map(|machine| machine.component).collect()
+        };
+        let within = if self.extent == Extent::WithData { computing(&self.chart) } else { Vec::new() };
+        let all = self.whole.system.iter().flat_map(|system| &system.computing.machines);
+        all.partition(|machine| within.contains(&machine.component))
+    }
+
+    /// The functions of machines, sensors and actuators that a property may speak of.
+    pub fn data(&self) -> Vec<String> {
+        match self.extent {
+            Extent::WithData => chart::kept(&self.chart),
+            Extent::Communication => Vec::new(),
+        }
+    }
+
     /// Makes the run of a counterexample on the ground model. `asked` is the verified model with the properties that were asked about.
     ///
     /// # Errors
@@ -193,13 +237,22 @@ impl VerifiedSystem {
     ) -> Result<GroundRun, String> {
         let mut ground = self.ground.overlay();
         let formula = invariant(asked, subject).and_then(|text| ground.ask("invariant", text.as_str()).ok());
-        let mut given = Given { program: asked.0, inputs: &trace.start.inputs };
+        let mut given = Given { program: asked.0, inputs: &trace.start.inputs, asked: BTreeMap::new() };
         let mut run = Events::start(&ground.program, limits, &mut given)?;
         let mut events = Vec::new();
+        let data = self.data();
         for (tick, step) in (0..).zip(&trace.steps) {
             given.inputs = &step.inputs;
+            given.asked.clear();
             match (run.step(&mut given), &step.fault) {
-                (Ok(made), None) => events.extend(made.into_iter().map(|(task, event)| (tick, task, event))),
+                (Ok(made), None) => {
+                    let mut tell = |task, words, is_data| events.push(Told { tick, task, words, is_data });
+                    for (name, value) in given.asked.iter().filter(|(name, _)| data.contains(name)) {
+                        tell(INPUT.to_string(), format!("{name} = {value}"), true);
+                    }
+                    made.into_iter().for_each(|(task, event)| tell(task, event.words(), false));
+                    self.decided(&mut run, &data).for_each(|(task, update)| tell(task, update, true));
+                }
                 (Err(fault), Some(_)) => return Ok(GroundRun { events, violates: None, fault: Some(fault) }),
                 (Err(fault), None) => return Err(fault),
                 (Ok(_), Some(_)) => return Err("it makes the step that the verified model cannot make".to_string()),
@@ -215,6 +268,29 @@ impl VerifiedSystem {
         Ok(GroundRun { events, violates, fault: None })
     }
 
+    /// What the machines decided in the last step of a run of the ground model: the component, the update.
+    fn decided<'r>(&'r self, run: &mut Events, data: &[String]) -> impl Iterator<Item = (String, String)> + use<'r> {
+        let machine = run.machine();
+        let program = Arc::clone(machine.program());
+        let changes = machine.changes().into_iter().filter(|change| {
+            let function = &program.function(change.location.function);
+            change.before != change.after && data.contains(&function.name)
+        });
+        let updates: Vec<(String, String)> = changes
+            .map(|change| {
+                let name = program.function(change.location.function).name.clone();
+                (name, format!("{} := {}", change.location.show(&program), change.after.show(&program)))
+            })
+            .collect();
+        let components = self.whole.system.iter().flat_map(|system| &system.components).collect::<Vec<_>>();
+        updates.into_iter().map(move |(name, update)| {
+            let is_own = |component: &&&chart::system::Component| {
+                name.strip_prefix(&component.name).is_some_and(|rest| rest.starts_with('_'))
+            };
+            (components.iter().find(is_own).map_or(String::new(), |component| component.name.clone()), update)
+        })
+    }
+
     /// The run of a counterexample as lines: what the tasks do, and when.
     ///
     /// # Errors
@@ -227,18 +303,21 @@ impl VerifiedSystem {
         trace: &Trace,
     ) -> Result<String, String> {
         let GroundRun { events, violates, fault } = self.ground_run(limits, asked, subject, trace)?;
-        let tick_ns = self.chart.system.as_ref().map_or(1, |system| system.tick_ns);
+        let tick_ns = self.whole.system.as_ref().map_or(1, |system| system.tick_ns);
         let instant = |tick: u64| chart::system::length(tick as i64, tick_ns);
         let mut out = String::new();
-        let omitted = events.len().saturating_sub(SHOWN);
-        if omitted > 0 {
-            let _ = writeln!(out, "  \u{2026} {omitted} events before those that follow");
+        // The last events; before them, what came in and was decided.
+        let (before, shown) = events.split_at(events.len().saturating_sub(SHOWN));
+        let data: Vec<&Told> = before.iter().filter(|told| told.is_data).collect();
+        let data = &data[data.len().saturating_sub(SHOWN / 2)..];
+        if before.len() > data.len() {
+            let _ = writeln!(out, "  \u{2026} {} events before the last ones are not shown", before.len() - data.len());
         }
-        let width = events[omitted..].iter().map(|(_, task, _)| task.len()).max().unwrap_or(0);
+        let width = data.iter().copied().chain(shown).map(|told| told.task.len()).max().unwrap_or(0);
         let mut last = None;
-        for (tick, task, event) in &events[omitted..] {
+        for Told { tick, task, words, .. } in data.iter().copied().chain(shown) {
             let at = if last == Some(tick) { String::new() } else { instant(*tick) };
-            let _ = writeln!(out, "  {at:>10}  {task:width$}  {}", event.words());
+            let _ = writeln!(out, "  {at:>10}  {task:width$}  {words}");
             last = Some(tick);
         }
         let end = instant(trace.steps.len() as u64);
@@ -270,6 +349,9 @@ impl VerifiedSystem {
     }
 }
 
+/// Who gives inputs, in a told run.
+const INPUT: &str = "(input)";
+
 /// LIMIT: the most events that a told run shows.
 const SHOWN: usize = 40;
 
@@ -286,14 +368,22 @@ fn invariant((program, sources): (&Program, &Sources), subject: Subject) -> Opti
 struct Given<'a> {
     program: &'a Program,
     inputs: &'a [(Location, Value)],
+    /// Those that were asked for, by their names.
+    asked: BTreeMap<String, String>,
 }
 
 impl Environment for Given<'_> {
     fn monitored(&mut self, program: &Program, location: LocationRef<'_>, codomain: DomainId) -> Result<Value, String> {
         let name = location.show(program).to_string();
         match self.inputs.iter().find(|(input, _)| input.show(self.program).to_string() == name) {
-            Some((_, value @ Value::Boolean(_))) => Ok(value.clone()),
-            _ => Closed.monitored(program, location, codomain),
+            // The same domain may have another number there.
+            Some((_, value)) => {
+                let text = value.show(self.program).to_string();
+                let read = read_value(program, codomain, &text);
+                self.asked.insert(name, text);
+                read
+            }
+            None => Closed.monitored(program, location, codomain),
         }
     }
 

@@ -12,7 +12,7 @@ use syntax::SourceFile;
 use testkit::Patterns;
 
 fn system(text: &str) -> Box<VerifiedSystem> {
-    let system = verified_system(SourceFile::new("Aged.chart", text), &[], &mut Patterns);
+    let system = verified_system(SourceFile::new("Aged.chart", text), &[], &|_| false, &mut Patterns);
     system.unwrap_or_else(|faults| panic!("{text}\n{faults:#?}"))
 }
 

@@ -15,6 +15,7 @@ mod review;
 mod scenarios;
 mod seeded;
 mod sessions;
+mod system_data;
 mod system_verification;
 mod systems;
 mod test_generation;

@@ -45,7 +45,7 @@ endsystem
 
 fn system(text: &str) -> Box<VerifiedSystem> {
     let name = text.split_whitespace().nth(1).expect("it begins with `chart` and its name");
-    let system = verified_system(SourceFile::new(format!("{name}.chart"), text), &[], &mut Patterns);
+    let system = verified_system(SourceFile::new(format!("{name}.chart"), text), &[], &|_| false, &mut Patterns);
     system.unwrap_or_else(|faults| panic!("{faults:#?}"))
 }
 
@@ -149,7 +149,7 @@ impl Run {
 /// Whether the two verified models do what the ground model does, for so many steps. What ends in the ground model, ends in the model
 /// whose elaborations take any time.
 fn lock_step(system: &VerifiedSystem, seed: u64, steps: u64) {
-    let drawn = system.chart.system.as_ref().expect("it has a system");
+    let drawn = system.whole.system.as_ref().expect("it has a system");
     let free: Vec<(&str, Vec<&str>)> = drawn
         .components
         .iter()
@@ -201,7 +201,7 @@ fn the_verified_models_do_what_the_ground_model_does() {
     for path in ["micro_assembly/AssemblySystem", "pick_and_place/PlacingSystem"] {
         let file = repository::root().join(format!("examples/{path}.chart"));
         let root = Disk::read(&file).expect("the example is there");
-        let example = verified_system(root, &[], &mut Disk).unwrap_or_else(|faults| panic!("{faults:#?}"));
+        let example = verified_system(root, &[], &|_| false, &mut Disk).unwrap_or_else(|faults| panic!("{faults:#?}"));
         lock_step(&example, 0, 60);
     }
 }
@@ -263,7 +263,7 @@ fn what_is_not_kept_is_named() {
     let read = |text: &str| {
         let mut asked = small.loaded.overlay();
         asked.property(PropertyKind::Invariant, "asked", text).unwrap_or_else(|faults| panic!("{faults:#?}"));
-        not_kept(&asked.program, &asked.program.properties.last().expect("it was added").formula)
+        not_kept(&asked.program, &asked.program.properties.last().expect("it was added").formula, &[])
     };
     assert_eq!(read("task_cycles(act_task) < 5"), ["task_cycles"]);
     assert_eq!(read("scheduler_currentScheduleTime(plan) < 3"), ["clock", "scheduler_actionStart"]);

@@ -14,7 +14,8 @@ use super::known::missing;
 use super::module::{Item, Parts};
 use super::table::{by_case, waiting};
 use crate::chart::Chart;
-use crate::computing::Made;
+use crate::component::{Carrying, carry, compose};
+use crate::computing::{Computing, Made};
 use crate::fault;
 use crate::system::{Action, ChannelKind, Component, Phase, System, Timing};
 
@@ -124,15 +125,14 @@ pub(super) fn parts(chart: &Chart, system: &System, known: &Known) -> Parts {
     if system.computing.ends.is_empty() {
         parts.init = Some(initial(system) + agent);
     } else {
-        computing(system, &mut parts);
+        computing(&system.computing, varies(system), &mut parts);
         parts.init = Some(initial(system) + &system.computing.initial.concat() + COMPUTING_AGENT);
     }
     parts
 }
 
-/// What the components' machines compute, and the rule of the tasks that lets them do it.
-fn computing(system: &System, parts: &mut Parts) {
-    let computing = &system.computing;
+/// What the components' machines compute, and the rule of the tasks that lets them do it. If times vary, an elaboration may end early.
+fn computing(computing: &Computing, varies: bool, parts: &mut Parts) {
     let new = computing.imports.iter().filter(|import| !parts.imports.contains(import)).cloned().collect::<Vec<_>>();
     parts.imports.splice(0..0, new);
     let item = |made: &Made| Item { name: made.name.clone(), text: made.text.clone(), decided: true };
@@ -144,7 +144,7 @@ fn computing(system: &System, parts: &mut Parts) {
         cases.concat()
     );
     parts.definitions.push(Item { name: "r_endOfElaboration".to_string(), text, decided: true });
-    let (execute, early) = match varies(system) {
+    let (execute, early) = match varies {
         false => ("r_scheduler_execute", ""),
         true => (
             "r_scheduler_executeVarying",
@@ -178,7 +178,12 @@ endpar
 
 /// The system without what its elaborations compute.
 pub(super) fn bare(system: &System) -> System {
-    let mut system = System { computing: Default::default(), ..system.clone() };
+    System { computing: Default::default(), ..without_rules(system) }
+}
+
+/// The system without what its elaborations compute by rules.
+pub(super) fn without_rules(system: &System) -> System {
+    let mut system = system.clone();
     for phase in system.components.iter_mut().flat_map(|component| &mut component.phases) {
         if let Action::Elaborate(link) = &mut phase.action {
             *link = None;
@@ -190,8 +195,10 @@ pub(super) fn bare(system: &System) -> System {
 /// The parts of the model that verifies a system: its text is the whole of a file.
 ///
 /// The system's own main rule becomes a tick of the verification library, which forgets after each tick what no rule can tell apart.
-/// What elaborations compute is left out; their times are not. `library` is the path of the pattern library's folder in imports.
-pub(super) fn verified(chart: &Chart, system: &System, library: &str, lengths: Lengths) -> Parts {
+/// What elaborations compute by rules is left out, and what machines decide, unless it is part of the `extent`; their times are not.
+/// `library` is the path of the pattern library's folder in imports.
+pub(super) fn verified(chart: &Chart, system: &System, library: &str, lengths: Lengths, extent: Extent) -> Parts {
+    let decided = (extent == Extent::WithData).then(|| by_place(system)).filter(|computing| !computing.ends.is_empty());
     let mut system = bare(system);
     let free = match lengths {
         Lengths::AsDrawn => Vec::new(),
@@ -208,7 +215,11 @@ pub(super) fn verified(chart: &Chart, system: &System, library: &str, lengths: L
     let standard = ["StandardLibrary", "CTLLibrary"].map(str::to_string);
     parts.imports = standard.into_iter().chain([format!("{library}ControlTask")]).collect();
     parts.imports.extend(verification.map(|name| format!("{VERIFICATION}{name}")));
-    fixed(&mut parts, "r_system", &format!("// a tick of the system as it is drawn\nrule r_system =\n{TICK}"));
+    let system_tick = match &decided {
+        Some(_) => carry::moved(&system, TICK),
+        None => TICK.to_string(),
+    };
+    fixed(&mut parts, "r_system", &format!("// a tick of the system as it is drawn\nrule r_system =\n{system_tick}"));
     let tick = if system.bounds.is_empty() { "r_tick" } else { "r_agedTick" };
     if !system.bounds.is_empty() {
         parts.imports.extend([format!("{library}DataAges"), format!("{VERIFICATION}AgesInTicks")]);
@@ -239,8 +250,39 @@ pub(super) fn verified(chart: &Chart, system: &System, library: &str, lengths: L
         let rows: Vec<_> = all.map(|phase| (phase.clone(), is_free(&phase).to_string())).collect();
         define("endless($p in SchedulePhase)", &by_case("$p", &rows));
     }
-    parts.init = Some(initial + AGENT);
+    match decided {
+        Some(decided) => {
+            let carries = |import: &&String| super::folder_of_patterns(import).is_none();
+            parts.imports.extend(chart.imports.iter().filter(carries).cloned());
+            // The tick lets actions end: an elaboration that ends has taken its time.
+            computing(&decided, false, &mut parts);
+            parts.init = Some(initial + &decided.initial.concat() + COMPUTING_AGENT);
+        }
+        None => parts.init = Some(initial + AGENT),
+    }
     parts
+}
+
+/// What a system's components compute, with the values where the data lie.
+fn by_place(system: &System) -> Computing {
+    let Computing { machines, contents, .. } = system.computing.clone();
+    compose(system, machines, contents, Carrying::ByPlace)
+}
+
+/// The functions of machines, sensors and actuators that the model with data has in common with the ground model, value for value.
+pub(super) fn kept(system: &System) -> Vec<String> {
+    let by_number = &system.computing.declarations;
+    let made = by_place(system).declarations.into_iter().map(|made| made.name);
+    made.filter(|name| by_number.iter().any(|known| known.name == *name)).collect()
+}
+
+/// What of a system is verified.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Extent {
+    /// Times, locks and channels.
+    Communication,
+    /// These, and the data with what the components' machines decide.
+    WithData,
 }
 
 /// How long the elaborations of asynchronous components take in the model that verifies a system.

@@ -11,27 +11,43 @@ use std::collections::{BTreeMap, BTreeSet};
 use syntax::ast::{self, AstNode};
 use syntax::{Span, SyntaxKind};
 
+use super::carry;
 use super::found::stem;
 use super::own::{Names, declared};
 use super::roles::{own, place, prepares};
-use super::types::Types;
-use crate::computing::{ComponentMachine, Computing, Feed, Made, Take};
+use crate::computing::{ComponentMachine, Computing, Content, Feed, Made, Take};
 use crate::system::{Action, Channel, ChannelKind, Component, System};
 
+/// How the values of data go through the channels.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Carrying {
+    /// In a table by the numbers of the data, which grows for ever.
+    ByNumber,
+    /// Where the data lie: at the writer, in each place of the channel, at the reader. See `carry`.
+    ByPlace,
+}
+
 /// Composes what the components of a system compute.
-pub(super) fn compose(system: &System, machines: Vec<ComponentMachine>, types: &Types) -> Computing {
-    let contents = types.iter().map(|(name, carried)| (name.clone(), carried.content.clone())).collect();
+pub(crate) fn compose(
+    system: &System,
+    machines: Vec<ComponentMachine>,
+    contents: BTreeMap<String, Content>,
+    carrying: Carrying,
+) -> Computing {
     let mut computing = Computing { contents, ..Computing::default() };
-    channels(system, &mut computing);
+    match carrying {
+        Carrying::ByNumber => channels(system, &mut computing),
+        Carrying::ByPlace => carry::channels(system, &mut computing),
+    }
     let mut sensors = BTreeSet::new();
     for machine in &machines {
         imports(machine, &mut computing);
         devices(system, machine, &mut sensors, &mut computing);
-        component(system, machine, &mut computing);
+        component(system, machine, carrying, &mut computing);
     }
     for (index, component) in system.components.iter().enumerate() {
         if !machines.iter().any(|machine| machine.component == index) {
-            given(system, component, &mut computing);
+            given(system, component, carrying, &mut computing);
         }
     }
     computing.machines = machines;
@@ -67,6 +83,24 @@ fn next_number(system: &System, channel: usize) -> String {
 /// channel's name: one that is drawn to several readers. `conform` looks for it by that name.
 fn copy(component: &Component, channel: &Channel) -> Option<String> {
     (channel.name != channel.drawn).then(|| format!("{}_{}", component.name, channel.name))
+}
+
+/// The value of the datum that the reader of a channel has.
+fn read(system: &System, channel: usize, carrying: Carrying) -> String {
+    let name = &system.channels[channel].name;
+    match carrying {
+        Carrying::ByNumber => format!("{}({})", value(name), read_number(system, channel)),
+        Carrying::ByPlace => carry::received(name),
+    }
+}
+
+/// The location of the value of the datum that is written next.
+fn next(system: &System, channel: usize, carrying: Carrying) -> String {
+    let name = &system.channels[channel].name;
+    match carrying {
+        Carrying::ByNumber => format!("{}({})", value(name), next_number(system, channel)),
+        Carrying::ByPlace => carry::staged(name),
+    }
 }
 
 fn channels(system: &System, computing: &mut Computing) {
@@ -134,7 +168,7 @@ fn devices(system: &System, machine: &ComponentMachine, sensors: &mut BTreeSet<u
 }
 
 /// A machine as a part of its component, and the end of its elaboration.
-fn component(system: &System, machine: &ComponentMachine, computing: &mut Computing) {
+fn component(system: &System, machine: &ComponentMachine, carrying: Carrying, computing: &mut Computing) {
     let component = &system.components[machine.component];
     let sensed = machine.feeds.iter().filter(|(_, feed)| matches!(feed, Feed::Sensor(_))).map(|(name, _)| name);
     let set = machine.takes.iter().filter(|(_, take)| matches!(take, Take::Actuator(_))).map(|(name, _)| name);
@@ -183,9 +217,10 @@ fn component(system: &System, machine: &ComponentMachine, computing: &mut Comput
     }
     let mut after = Vec::new();
     for (name, take) in &machine.takes {
-        if let Take::Channel(channel) = take {
-            let table = value(&system.channels[*channel].name);
-            after.push(format!("{table}({}) := {}", next_number(system, *channel), names.function(name)));
+        if let Take::Channel(channel) = take
+            && system.channels[*channel].message.is_some()
+        {
+            after.push(format!("{} := {}", next(system, *channel, carrying), names.function(name)));
             let (drawn, message) = (&system.channels[*channel], &system.channels[*channel].message);
             if let (Some(copy), Some(message)) = (copy(component, drawn), message) {
                 let text = format!(
@@ -201,14 +236,18 @@ fn component(system: &System, machine: &ComponentMachine, computing: &mut Comput
         let (text, definition) = match feed {
             Feed::Sensor(_) => continue,
             Feed::Channel(channel) => {
-                let (table, number) = (value(&system.channels[*channel].name), read_number(system, *channel));
-                (format!("what was read from {}", system.channels[*channel].name), format!("{table}({number})"))
+                (format!("what was read from {}", system.channels[*channel].name), read(system, *channel, carrying))
             }
             Feed::IsNew(channel) => {
                 let channel_name = &system.channels[*channel].name;
                 let definition = match system.channels[*channel].kind {
                     ChannelKind::Buffer { .. } => format!("sb_fresh({channel_name})"),
                     ChannelKind::Shared => format!("sv_fresh({channel_name})"),
+                    ChannelKind::Queue { .. } if carrying == Carrying::ByPlace => {
+                        let is_new = carry::is_new(channel_name);
+                        after.push(format!("{is_new} := false"));
+                        is_new
+                    }
                     ChannelKind::Queue { .. } => {
                         let seen = format!("{}_taken_{channel_name}", component.name);
                         let text = format!(
@@ -289,7 +328,7 @@ fn declared_in(text: &str) -> Option<String> {
 }
 
 /// The data of a component without a machine are inputs.
-fn given(system: &System, component: &Component, computing: &mut Computing) {
+fn given(system: &System, component: &Component, carrying: Carrying, computing: &mut Computing) {
     let mut by_phase: BTreeMap<usize, Vec<String>> = BTreeMap::new();
     for (at, phase) in component.phases.iter().enumerate() {
         let Action::Write(channel) = phase.action else { continue };
@@ -304,7 +343,7 @@ fn given(system: &System, component: &Component, computing: &mut Computing) {
             );
             computing.declarations.push(Made { name: name.clone(), text, span: drawn.span });
         }
-        let update = format!("{}({}) := {name}", value(&drawn.name), next_number(system, channel));
+        let update = format!("{} := {name}", next(system, channel, carrying));
         by_phase.entry(prepared).or_default().push(update);
     }
     for (phase, updates) in by_phase {

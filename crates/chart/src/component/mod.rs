@@ -5,11 +5,16 @@
 //! model; and the faults. INVARIANT: a machine's own names get the name of its component before them, so two components never share a
 //! name, even if they have the same machine. Whatever the machine's module imports is shared and keeps its names.
 
+pub(crate) mod carry;
 mod compose;
 mod found;
 mod own;
 mod roles;
+mod slice;
 mod types;
+
+pub(crate) use compose::{Carrying, compose};
+pub(crate) use slice::slice;
 
 use model::Loader;
 use syntax::{Diagnostic, SourceFile, Sources};
@@ -51,7 +56,8 @@ pub(crate) fn compute(
         faults.extend(roles::doubled(system, &found));
     }
     if faults.is_empty() {
-        let computing = compose::compose(system, found, &types);
+        let contents = types.iter().map(|(name, carried)| (name.clone(), carried.content.clone())).collect();
+        let computing = compose(system, found, contents, Carrying::ByNumber);
         if let Some(system) = &mut chart.system {
             system.computing = computing;
         }

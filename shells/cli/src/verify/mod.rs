@@ -90,6 +90,9 @@ pub struct Arguments {
     /// repeated
     #[arg(long = "assume", value_name = "TERM")]
     assumptions: Vec<String>,
+    /// Of a chart's system: verify also what the components' machines decide. Default: if a property speaks of it
+    #[arg(long)]
+    data: bool,
     /// Stop at the first violation
     #[arg(long)]
     first: bool,
@@ -186,6 +189,11 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
             Ok(system) => Some(system),
             Err(exit) => return Ok(exit),
         },
+        false if arguments.data => {
+            return Err(Failure::usage(
+                "--data is about the system of a chart: a model is verified with its data anyway",
+            ));
+        }
         false => None,
     };
     let mut loaded = match &system {
@@ -257,7 +265,7 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     });
     let (general, watch) = match &system {
         Some(system) => {
-            system::refuse(&asked, loaded.program.properties.len(), terminal.as_ref())?;
+            system::refuse(system, &asked, loaded.program.properties.len(), terminal.as_ref())?;
             system::about(shell, system)?;
             let sought = system::Sought { arguments, options: &options, agents };
             match system::general(shell, system, &sought, watch)? {

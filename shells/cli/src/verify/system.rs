@@ -8,15 +8,17 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
+use groundstate::inputs::verification::Verification;
 use groundstate::job::{self, Cancel, VerifyEvent};
 use groundstate::tell::{Story, Verdicts};
 use groundstate::verify::temporal::fairness::AgentFairness;
 use groundstate::verify::{NoSolvers, Options, Outcome, Report, Request, Subject};
-use groundstate::{Overlay, VerifiedSystem};
+use groundstate::{Extent, Overlay, VerifiedSystem};
 use machine::Limits;
 use program::{Expression, Program, PropertyKind};
 use syntax::Sources;
 
+use super::beside::beside;
 use super::counterexample::{named, relative, with_invariant};
 use super::tell::Teller;
 use super::watch::Watch;
@@ -32,7 +34,19 @@ pub fn load(shell: &mut Shell, arguments: &Arguments) -> Result<Result<Box<Verif
     let mut disk = shell.disk();
     let root = disk.root(&arguments.model)?;
     let libraries: &[&str] = if arguments.ltl.is_empty() { &[] } else { &["LTLLibrary"] };
-    match groundstate::verified_system(root, libraries, &mut disk) {
+    // What a file says beside the options; its faults are told when it is read for the loaded model.
+    let said = match &arguments.bounded.spec {
+        Some(path) => beside(shell, &mut Sources::default(), Some(path), &arguments.model)?,
+        None => Some(Verification::default()),
+    };
+    let Some(said) = said else { return Ok(Err(Exit::World)) };
+    let spoken = words_of(arguments, &said);
+    let speaks_of = |function: &str| arguments.data || spoken.contains(function);
+    match groundstate::verified_system(root, libraries, &speaks_of, &mut disk) {
+        Ok(system) if arguments.data && system.extent != Extent::WithData => {
+            let help = "a machine is named by `elaborate NAME by MACHINE`";
+            Err(Failure::usage_with_help("--data: no component of this chart decides by a machine", help))
+        }
         Ok(system) => {
             let (sources, warnings) = &system.warnings;
             shell.diagnostics(sources, warnings)?;
@@ -50,31 +64,66 @@ pub fn load(shell: &mut Shell, arguments: &Arguments) -> Result<Result<Box<Verif
     }
 }
 
+/// The words of what is asked and assumed, and the names of inputs.
+fn words_of(arguments: &Arguments, said: &Verification) -> BTreeSet<String> {
+    let options = [&arguments.invariants, &arguments.ctl, &arguments.ltl, &arguments.assumptions];
+    let options = options.into_iter().flatten().chain(&arguments.terminal);
+    let inputs = arguments.bounded.bounds.iter().chain(&arguments.bounded.undefined).chain(&said.bounds);
+    let file = said.properties.iter().flatten().chain(&said.assumptions).chain(&said.terminal).chain(&said.undefined);
+    let texts = options.chain(inputs).map(String::as_str).chain(file.map(|text| &**text));
+    let word = |part: &str| part.to_string();
+    texts.flat_map(|text| text.split(|c: char| !c.is_alphanumeric() && c != '_')).map(word).collect()
+}
+
 /// Says what the verdicts are about.
 pub fn about(shell: &mut Shell, system: &VerifiedSystem) -> Result<(), Failure> {
-    if shell.talks() {
-        writeln!(shell.out(), "of times, locks and channels as drawn; what elaborations compute is left out")?;
-        let machines = system.chart.system.iter().flat_map(|system| &system.computing.machines);
-        let mut files: Vec<&str> = machines.map(|machine| machine.source.name.as_str()).collect();
-        files.sort_unstable();
-        files.dedup();
-        if !files.is_empty() {
-            let commands: Vec<String> = files.iter().map(|file| format!("`groundstate verify {file}`")).collect();
+    if !shell.talks() {
+        return Ok(());
+    }
+    let (within, without) = system.machines();
+    let components = system.whole.system.iter().flat_map(|system| &system.components).collect::<Vec<_>>();
+    let names = within.iter().map(|machine| components[machine.component].name.as_str()).collect::<Vec<_>>();
+    match system.extent {
+        Extent::Communication => {
+            writeln!(shell.out(), "of times, locks and channels as drawn; what elaborations compute is left out")?;
+        }
+        Extent::WithData if names.is_empty() => {
+            writeln!(shell.out(), "of times, locks, channels and their data as drawn")?
+        }
+        Extent::WithData => {
+            let deciders = names.join(", ");
             writeln!(
                 shell.out(),
-                "left out: what the components' machines decide; each by itself: {}",
-                commands.join(", ")
+                "of times, locks and channels as drawn, with what the machines of {deciders} decide"
             )?;
         }
+    }
+    let mut files: Vec<&str> = without.iter().map(|machine| machine.source.name.as_str()).collect();
+    files.sort_unstable();
+    files.dedup();
+    if !files.is_empty() {
+        let commands: Vec<String> = files.iter().map(|file| format!("`groundstate verify {file}`")).collect();
+        let others = if within.is_empty() { "the components'" } else { "the other components'" };
+        writeln!(
+            shell.out(),
+            "left out: what {others} machines decide, of which nothing asks (`--data` does); each by itself: {}",
+            commands.join(", ")
+        )?;
     }
     Ok(())
 }
 
 /// Refuses what is asked about functions that a verified model does not keep.
-pub fn refuse(asked: &Overlay, own: usize, terminal: Option<&Expression>) -> Result<(), Failure> {
+pub fn refuse(
+    system: &VerifiedSystem,
+    asked: &Overlay,
+    own: usize,
+    terminal: Option<&Expression>,
+) -> Result<(), Failure> {
+    let data = system.data();
     let properties = asked.program.properties[own..].iter().map(|property| (property.name.as_str(), &property.formula));
     for (name, formula) in properties.chain(terminal.map(|term| ("--terminal", term))) {
-        let read = groundstate::not_kept(&asked.program, formula);
+        let read = groundstate::not_kept(&asked.program, formula, &data);
         if !read.is_empty() {
             let help =
                 "ask about phases, locks, queues, what is pending or fresh; or verify the model of `chart build`";
@@ -128,7 +177,7 @@ pub fn general(
     let own = general.program.properties.len();
     // That some run does a thing may be true only of times that the system does not have: a formula of CTL may ask for that.
     // Ages are those of the times as they are drawn, too.
-    let has_ages = system.chart.system.as_ref().is_some_and(|system| !system.bounds.is_empty());
+    let has_ages = system.whole.system.as_ref().is_some_and(|system| !system.bounds.is_empty());
     let mut left_out = has_ages;
     left_out |= leave_out(&mut asked, own, &|kind| kind == PropertyKind::Ctl);
     let mut searched = search(&asked.program, &options, *agents, (&mut watch, until))?;
