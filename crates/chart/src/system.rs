@@ -93,6 +93,19 @@ impl Timing {
     }
 }
 
+impl Component {
+    /// The ticks that a cycle may take: until the deadline; a task of a single phase also waits for a tick before its next cycle. `None`
+    /// for an asynchronous component.
+    pub fn available(&self) -> Option<u64> {
+        match self.timing {
+            Timing::Synchronous { period, deadline, .. } => {
+                Some(deadline.min(period.saturating_sub(u64::from(self.phases.len() == 1))))
+            }
+            Timing::Asynchronous { .. } => None,
+        }
+    }
+}
+
 /// A phase of a component's cycle.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Phase {

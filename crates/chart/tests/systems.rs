@@ -233,6 +233,26 @@ fn told(text: &str) -> Vec<String> {
 }
 
 #[test]
+fn a_cycle_of_one_phase_may_not_take_the_whole_period() {
+    let cell = |times: &str, phase: &str| {
+        told(&format!(
+            "chart Cell system cell tick 1 ms component a synchronous {times} elaborate x {phase} endcomponent endsystem"
+        ))
+    };
+    let late = "long-cycle: every cycle of `a` misses its period of 10 ms: it takes 10 ms (x), and the next one begins a tick after it";
+    assert_eq!(cell("period 10 ms", "10 ms"), [late]);
+    let sometimes = "long-cycle: a long cycle of `a` misses its period of 10 ms: it takes up to 10 ms (x), and the next one begins a tick after it";
+    assert_eq!(cell("period 10 ms", "8..10 ms"), [sometimes]);
+    assert_eq!(cell("period 10 ms", "9 ms"), [""; 0]);
+    assert_eq!(cell("period 10 ms deadline 9 ms", "9 ms"), [""; 0]);
+    assert_eq!(cell("period 10 ms", "9 ms elaborate y 1 ms"), [""; 0]);
+    assert_eq!(cell("period 0 ms", "0 ms"), ["time-unit: a period takes at least a tick"]);
+    let offset = "time-unit: the first cycle begins within the first period";
+    assert_eq!(cell("period 10 ms offset 11 ms", "1 ms"), [offset]);
+    assert_eq!(cell("period 10 ms offset 10 ms", "1 ms"), [""; 0]);
+}
+
+#[test]
 fn only_stated_processors_are_judged() {
     assert_eq!(told(CELL), [""; 0]);
     assert_eq!(told(&bounded("\tprocessors 5\n")), [""; 0]);

@@ -1,7 +1,7 @@
 //! Carries out a request: an engine explores the states, and its findings become a verdict for each check.
 //!
 //! In: a program and [`Options`]. Out: a [`Report`]: a verdict for each built-in check and for each property as
-//! written. INVARIANT: nothing Holds unless every state was explored and every alternative taken; the verdict names
+//! written. INVARIANT: nothing Holds unless every state was explored and every alternative taken, and there was one; the verdict names
 //! what was cut off.
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -45,7 +45,8 @@ pub(crate) fn verify_request(
     let task = Task { program, plan: &question.plan, solvers, keeper, heed };
     let mut ended = engine_of(options.engine, &question.plan, task.keeper.is_some()).run(task)?;
     let reasons = reasons(&ended, &question, options);
-    let assumed: Vec<Reason> = reasons.iter().filter(|reason| matches!(reason, Reason::Bounded(_))).copied().collect();
+    let assumed = reasons.iter().filter(|reason| matches!(reason, Reason::Bounded(_) | Reason::Vacuous));
+    let assumed: Vec<Reason> = assumed.copied().collect();
     // All states may have been explored by then.
     let is_enough = options.first && !ended.found.is_empty();
     let (mut proofs, mut left) = (BTreeMap::new(), BTreeMap::new());
@@ -174,6 +175,11 @@ fn reasons(search: &Ended, question: &Question, options: &Options) -> Vec<Reason
     reasons.extend(search.omission.map(|_| Reason::Compacted));
     reasons.extend(search.unbounded.iter().copied().map(Reason::Unbounded));
     reasons.extend(options.bounds.keys().copied().map(Reason::Bounded));
+    // A search that has ended has met all initial states that the assumptions admit.
+    let has_searched = !matches!(search.engine, EngineKind::Solver(_)) && search.stop.is_none();
+    if search.vacuous || has_searched && search.progress.states == 0 && search.unbounded.is_empty() {
+        reasons.insert(Reason::Vacuous);
+    }
     for condition in &question.plan.assumed {
         if search.unknown.contains(condition) {
             reasons.insert(Reason::Assumption(question.property_of(*condition)));

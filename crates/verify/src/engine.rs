@@ -74,6 +74,8 @@ pub(crate) struct Ended {
     pub walk: Option<Walk>,
     /// The engine.
     pub engine: EngineKind,
+    /// No initial state satisfies the assumptions.
+    pub vacuous: bool,
     /// Targets that a solver proved unreachable.
     pub proved: BTreeMap<Target, Proof>,
     /// Targets that a solver left open.
@@ -99,6 +101,7 @@ impl Ended {
             executed: Vec::new(),
             walk: None,
             engine,
+            vacuous: false,
             proved: BTreeMap::new(),
             left: BTreeMap::new(),
             solver: None,
@@ -125,6 +128,7 @@ impl Ended {
             self.found.entry(target).or_insert(trace);
         }
         self.proved = solved.proved;
+        self.vacuous |= solved.vacuous;
         self.left = solved.left;
         self.solver = Some(solved.solver);
     }

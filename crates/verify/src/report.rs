@@ -32,6 +32,8 @@ pub enum Reason {
     Bounded(FunctionId),
     /// An assumption could not be evaluated in some state.
     Assumption(usize),
+    /// No initial state satisfies the assumptions, so nothing was checked.
+    Vacuous,
     /// In some state it depends on something that cannot be enumerated.
     Undecided,
     /// It is a property of runs; [`Report::runs`] tells why it is unknown.

@@ -13,6 +13,20 @@ pub(crate) fn no_processor(span: Span) -> Diagnostic {
         .with_help("write `processors 1`, or more")
 }
 
+/// A period of no length.
+pub(crate) fn no_period(span: Span) -> Diagnostic {
+    Diagnostic::error("time-unit", span, "a period takes at least a tick")
+        .here("cycles would begin all at once")
+        .with_help("write a longer period")
+}
+
+/// An offset that is longer than the period.
+pub(crate) fn late_offset(span: Span) -> Diagnostic {
+    Diagnostic::error("time-unit", span, "the first cycle begins within the first period")
+        .here("the offset is longer than the period")
+        .with_help("write an offset that is no longer than the period")
+}
+
 /// More synchronous work than the processors can do.
 pub(crate) fn overloaded(span: Span, needed: f64, processors: u64) -> Diagnostic {
     let message = format!("the synchronous tasks need {needed:.2} processors, more than there are");

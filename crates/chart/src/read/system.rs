@@ -146,9 +146,10 @@ impl Reader {
     fn long_cycles(&mut self, system: &System) {
         for component in &system.components {
             let Timing::Synchronous { period, deadline, .. } = component.timing else { continue };
+            let Some(available) = component.available() else { continue };
             let (time_until, word) = if deadline < period { (deadline, "deadline") } else { (period, "period") };
             let whole = busy(system, component);
-            if whole <= time_until {
+            if whole <= available {
                 continue;
             }
             let shown = |ticks: u64| length(ticks as i64, system.tick_ns);
@@ -161,9 +162,13 @@ impl Reader {
                 [one] => one.clone(),
                 several => format!("{} = {}", several.join(" + "), shown(whole)),
             };
+            let sum = match whole == time_until {
+                true => format!("{sum}, and the next one begins a tick after it"),
+                false => sum,
+            };
             let until = format!("its {word} of {}", shown(time_until));
             let spared: u64 = component.phases.iter().map(|phase| phase.time - phase.least).sum();
-            let always = whole - spared > time_until;
+            let always = whole - spared > available;
             self.faults.push(fault::long_cycle(component.span, &component.name, always, &sum, &until));
         }
     }
@@ -232,9 +237,23 @@ impl Reader {
             Some(kind) => {
                 let mut length =
                     |word: SyntaxKind| kind.quantity(word).map(|quantity| self.ticks(&quantity, system.tick_ns));
-                let period = length(SyntaxKind::PERIOD_KW).unwrap_or(1).max(1);
+                let stated = length(SyntaxKind::PERIOD_KW);
+                let period = stated.unwrap_or(1).max(1);
                 let offset = length(SyntaxKind::OFFSET_KW).unwrap_or(0);
-                Timing::Synchronous { period, offset, deadline: length(SyntaxKind::DEADLINE_KW).unwrap_or(period) }
+                let deadline = length(SyntaxKind::DEADLINE_KW).unwrap_or(period);
+                let place = |word: SyntaxKind| {
+                    let quantity = kind.quantity(word)?;
+                    Some(Span::new(self.file, quantity.range()))
+                };
+                // Less than a tick is a fault of its own.
+                if let (Some(0), Some(place)) = (stated, place(SyntaxKind::PERIOD_KW)) {
+                    if !self.faults.iter().any(|fault| fault.primary.span == place) {
+                        self.faults.push(fault::times::no_period(place));
+                    }
+                } else if offset > period {
+                    self.faults.extend(place(SyntaxKind::OFFSET_KW).map(fault::times::late_offset));
+                }
+                Timing::Synchronous { period, offset, deadline }
             }
             None => Timing::Asynchronous { awaits: None },
         };

@@ -144,7 +144,8 @@ pub fn times(system: &System, platform: Platform) -> Times {
         verdict: analysis.verdict(index),
     });
     let tasks: Vec<TaskTimes> = tasks.collect();
-    let load = loads.iter().flatten().sum();
+    // A sum of nothing is -0.
+    let load = 0.0 + loads.iter().flatten().sum::<f64>();
     let ages = ages::ages(system, &analysis);
     Times { platform, tasks, load, overloaded, ages }
 }
@@ -176,7 +177,7 @@ pub fn told(system: &System, times: &Times, place: syntax::Span) -> Vec<Diagnost
     for (component, task) in system.components.iter().zip(&times.tasks) {
         let Timing::Synchronous { deadline, .. } = component.timing else { continue };
         // A cycle that is too long by itself is told anyway.
-        if task.execution.1 > deadline || task.verdict == Verdict::Meets {
+        if task.execution.1 > component.available().unwrap_or(deadline) || task.verdict == Verdict::Meets {
             continue;
         }
         let certain = task.verdict == Verdict::Misses;
@@ -320,15 +321,20 @@ impl Analysis<'_> {
     }
 
     fn verdict(&self, index: usize) -> Verdict {
-        let Timing::Synchronous { deadline, offset, .. } = self.system.components[index].timing else {
+        let component = &self.system.components[index];
+        let (Timing::Synchronous { deadline, offset, .. }, Some(available)) = (component.timing, component.available())
+        else {
             return Verdict::None;
         };
-        if executed(self.system, index).1 > deadline {
+        if executed(self.system, index).1 > available {
             return Verdict::Misses;
         }
         let response = self.responses[index];
-        if response.is_some_and(|response| response <= deadline) {
+        if response.is_some_and(|response| response <= available) {
             return Verdict::Meets;
+        }
+        if response.is_some_and(|response| response <= deadline) {
+            return Verdict::Open("a cycle that ends with its period leaves no tick before the next one".to_string());
         }
         let blocking = match &self.blocking[index] {
             Ok(blocking) => *blocking,

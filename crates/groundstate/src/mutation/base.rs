@@ -211,8 +211,7 @@ impl Bench {
                     Ok(counting) => {
                         judge.note(&report, loaded, counting);
                     }
-                    Err(name) => {
-                        let why = format!("does not pass as it is: {name} is violated");
+                    Err(why) => {
                         self.unfit(path, why, Sources::default(), Vec::new());
                         return None;
                     }
@@ -291,7 +290,7 @@ impl Judge {
     }
 }
 
-/// Which checks count, or the name of one that is violated.
+/// Which checks count, or why none does, as a clause about the model.
 fn counting(report: &Report, asked: &Asked) -> Result<Counting, String> {
     let program = asked.program();
     let mut counting = Counting { left_out: vec![false; program.properties.len()], ..Counting::default() };
@@ -303,7 +302,11 @@ fn counting(report: &Report, asked: &Asked) -> Result<Counting, String> {
             (Outcome::Holds, _) => {}
             (Outcome::Violated(_), Subject::NoDeadlock) => counting.may_rest = true,
             (Outcome::Violated(_), subject) => {
-                return Err(Verdicts::new(program, &asked.overlay.sources, false).name(subject));
+                let name = Verdicts::new(program, &asked.overlay.sources, false).name(subject);
+                return Err(format!("does not pass as it is: {name} is violated"));
+            }
+            (Outcome::Unknown(reasons), _) if reasons.contains(&Reason::Vacuous) => {
+                return Err("has no initial state that satisfies its assumptions".to_string());
             }
             (Outcome::Unknown(reasons), subject) => {
                 // What was not found within the same bounds, or in the same number of steps, counts if it is found then.

@@ -186,6 +186,7 @@ impl Verdicts<'_> {
             Reason::Assumption(property) => {
                 format!("the assumption {} has no value in some state", self.program.properties[*property].name)
             }
+            Reason::Vacuous => "no initial state satisfies the assumptions".to_string(),
             Reason::Undecided => "it has no value in some state".to_string(),
             Reason::Temporal => "this engine does not decide temporal formulas".to_string(),
             Reason::Left => "the solver left it open".to_string(),

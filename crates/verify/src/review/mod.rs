@@ -146,7 +146,11 @@ pub fn review(
     let Reviewer { survey, mut findings, .. } = reviewer;
     findings.retain(|finding| metas.contains(&finding.meta));
     findings.sort_by_key(|finding| (finding.meta, finding.span));
+    let nothing_seen = survey.reasons.contains(&Reason::Vacuous);
     let outcome = |meta: Meta| {
+        if nothing_seen {
+            return MetaOutcome::Unknown;
+        }
         let found = findings.iter().any(|finding| finding.meta == meta);
         match (found, survey.is_complete()) {
             (true, complete) if complete || meta.by_event() => MetaOutcome::Violated,

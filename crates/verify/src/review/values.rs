@@ -30,7 +30,7 @@ impl Reviewer<'_> {
                 continue;
             }
             let span = function.span;
-            let Some(elements) = self.survey.elements(function.codomain, ELEMENTS) else { continue };
+            let Some(elements) = self.values_of(function.codomain) else { continue };
             let none = BTreeSet::new();
             let taken = taken.get(&id).unwrap_or(&none);
             let missing: Vec<Value> = elements.into_iter().filter(|value| !taken.contains(value)).collect();
@@ -38,6 +38,19 @@ impl Reviewer<'_> {
                 self.find(Meta::ValueTaken, Matter::NeverTaken(id, missing), span);
             }
         }
+    }
+
+    /// The values of a codomain, if they are not too many: its elements, or its sets.
+    fn values_of(&mut self, domain: DomainId) -> Option<Vec<Value>> {
+        let DomainKind::Powerset(of) = self.program.domain(domain).kind else {
+            return self.survey.elements(domain, ELEMENTS);
+        };
+        let elements = self.survey.elements(of, ELEMENTS.ilog2() as usize)?;
+        let set = |chosen: usize| {
+            let within = (0..elements.len()).filter(|place| chosen >> place & 1 == 1);
+            Value::set(within.map(|place| elements[place].clone()).collect())
+        };
+        Some((0..1 << elements.len()).map(set).collect())
     }
 
     /// MP5.

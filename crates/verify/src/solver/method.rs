@@ -54,6 +54,8 @@ pub(crate) struct Solved {
     pub found: BTreeMap<Target, Trace>,
     pub proved: BTreeMap<Target, Proof>,
     pub left: BTreeMap<Target, Left>,
+    /// No initial state satisfies the assumptions.
+    pub vacuous: bool,
     /// The largest number of steps that was tried.
     pub depth: u64,
     /// The solver.

@@ -20,7 +20,7 @@ use std::sync::Arc;
 use explore::Trouble;
 use program::Program;
 pub use solve::Outside;
-use solve::session::{Silence, Solvers};
+use solve::session::{Silence, Solvers, Verdict};
 
 use crate::plan::Plan;
 use crate::progress::Progress;
@@ -30,7 +30,7 @@ use induction::Induction;
 use method::Solved;
 pub use method::{Left, Method, Proof};
 use relation::{Relation, Unrelated};
-use unrolling::Patience;
+use unrolling::{Patience, Unrolling};
 
 /// Why there is no result.
 #[derive(Debug)]
@@ -171,6 +171,18 @@ pub(crate) fn solve(
             .map(|(target, _)| (*target, ()))
             .collect();
         by_reachability(&mut provable, &known, told, solvers, &mut patience, &mut proves, &mut told)?;
+    }
+    // Without an initial state, everything can be proved.
+    if !proves.is_empty() && bounded.found.is_empty() {
+        match Unrolling::new(&exact, solvers.start()?, true).possible(&[], &mut patience) {
+            Ok(Verdict::Possible) => {}
+            Ok(Verdict::Impossible) => solved.vacuous = true,
+            Ok(Verdict::Unknown) => proves.clear(),
+            Err(silence) => {
+                proves.clear();
+                late = late.or(Some(left_by(silence, 0)));
+            }
+        }
     }
     solved.depth = bounded.times.saturating_sub(1) as u64;
     for (target, _) in pending {

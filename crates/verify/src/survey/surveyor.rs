@@ -82,6 +82,9 @@ pub fn survey(
     let mut survey = widened(|widening| Surveyor::begin(program, &plan, widening)?.run(watch))?;
     let mut reasons: BTreeSet<Reason> = survey.reasons.drain(..).collect();
     reasons.extend(survey.stop.map(Reason::Stopped));
+    if survey.stop.is_none() && survey.table.len() == 0 {
+        reasons.insert(Reason::Vacuous);
+    }
     reasons.extend(survey.explorer.unbounded().iter().copied().map(Reason::Unbounded));
     reasons.extend(options.bounds.keys().copied().map(Reason::Bounded));
     survey.reasons = reasons.into_iter().collect();
