@@ -24,6 +24,7 @@ pub mod tell;
 mod test;
 pub mod test_generation;
 mod verified_system;
+mod verify_preserved;
 pub mod workspace;
 
 use std::collections::BTreeMap;
@@ -52,6 +53,7 @@ pub use kind::{Kind, has_ending, model_of};
 pub use overlay::{Overlay, Said};
 pub use test::{SeededChoices, Suite, Tested, own_files};
 pub use verified_system::{GroundRun, VerifiedSystem, not_kept, verified_system};
+pub use verify_preserved::verify_preserved;
 pub use workspace::Workspace;
 pub use {
     chart, conform, generate, inputs, machine, model, mutate, program, refine, report, scenario, simulate, solve,

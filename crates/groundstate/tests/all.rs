@@ -11,6 +11,7 @@ mod machines;
 mod operations;
 mod pages;
 mod picks;
+mod preserved;
 mod review;
 mod scenarios;
 mod seeded;

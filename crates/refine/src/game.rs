@@ -9,7 +9,7 @@ use std::collections::VecDeque;
 
 use rustc_hash::{FxHashMap, FxHashSet};
 
-use crate::product::{Node, NodeId, PairId, Product};
+use crate::product::{Answers, Node, NodeId, PairId, Product};
 
 /// How a pair was lost.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -20,6 +20,31 @@ pub(crate) struct Lost {
     pub waits: bool,
 }
 
+/// What the game is played by.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Rules {
+    /// What is not known counts for the abstract machine.
+    pub hopeful: bool,
+    /// The abstract machine may make no step for ever.
+    pub waiting: bool,
+    /// The fewest and the most abstract steps of a diagram, and the most concrete ones; besides what the coupling allows.
+    pub least_m: u32,
+    pub most_m: u32,
+    pub most_n: u32,
+}
+
+impl Rules {
+    /// Those of the coupling.
+    pub fn of(product: &Product<'_>, hopeful: bool) -> Rules {
+        let waiting = product.judge.coupling.waiting;
+        Rules { hopeful, waiting, least_m: 0, most_m: u32::MAX, most_n: u32::MAX }
+    }
+
+    fn allow(&self, end: &Answers, m: u32) -> bool {
+        end.from.is_none() || (self.least_m <= m && m <= self.most_m && end.n <= self.most_n)
+    }
+}
+
 /// See the module.
 #[derive(Debug)]
 pub(crate) struct Solution {
@@ -27,14 +52,14 @@ pub(crate) struct Solution {
     pub lost: Vec<Option<Lost>>,
     /// Whether each initial state is answered.
     pub won: bool,
-    /// What is not known counts for the abstract machine.
-    pub hopeful: bool,
+    /// What was played by.
+    pub rules: Rules,
 }
 
 impl Solution {
     /// Whether a node is won, given which pairs are: after so many abstract steps.
     pub fn wins(&self, product: &Product<'_>, node: NodeId, alive: &dyn Fn(PairId, u32) -> bool) -> bool {
-        wins(product, node, self.hopeful, alive, &mut Known::default())
+        wins(product, node, &self.rules, alive, &mut Known::default())
     }
 
     /// Whether a pair was still alive when this one was lost.
@@ -53,7 +78,7 @@ type Known = FxHashMap<NodeId, bool>;
 fn wins(
     product: &Product<'_>,
     node: NodeId,
-    hopeful: bool,
+    rules: &Rules,
     alive: &dyn Fn(PairId, u32) -> bool,
     known: &mut Known,
 ) -> bool {
@@ -61,13 +86,14 @@ fn wins(
         return *known;
     }
     let won = match &product.nodes[node as usize] {
-        Node::Deeds(deeds) => deeds.iter().all(|(_, node)| wins(product, *node, hopeful, alive, known)),
-        Node::Choice(ways) => ways.iter().any(|node| wins(product, *node, hopeful, alive, known)),
+        Node::Deeds(deeds) => deeds.iter().all(|(_, node)| wins(product, *node, rules, alive, known)),
+        Node::Choice(ways) => ways.iter().any(|node| wins(product, *node, rules, alive, known)),
         Node::Answers(end) => {
-            end.answers.iter().any(|(pair, m)| alive(*pair, *m)) || (hopeful && end.unclear.is_some())
+            let answered = |(pair, m): &(PairId, u32)| rules.allow(end, *m) && alive(*pair, *m);
+            end.answers.iter().any(answered) || (rules.hopeful && end.unclear.is_some())
         }
         Node::Fault => false,
-        Node::Open(_) => hopeful,
+        Node::Open(_) => rules.hopeful,
     };
     if matches!(product.nodes[node as usize], Node::Deeds(_) | Node::Choice(_)) {
         known.insert(node, won);
@@ -93,7 +119,7 @@ fn each_answer(product: &Product<'_>, node: NodeId, visit: &mut dyn FnMut(PairId
 }
 
 /// Decides all pairs.
-pub(crate) fn solve(product: &Product<'_>, hopeful: bool) -> Solution {
+pub(crate) fn solve(product: &Product<'_>, rules: Rules) -> Solution {
     let count = product.pairs.len();
     let mut parents: Vec<Vec<PairId>> = vec![Vec::new(); count];
     let mut ever_waits = false;
@@ -119,9 +145,9 @@ pub(crate) fn solve(product: &Product<'_>, hopeful: bool) -> Solution {
             }
             let won = match product.trees[pair as usize] {
                 Some(tree) => {
-                    wins(product, tree, hopeful, &|pair, _| lost[pair as usize].is_none(), &mut Known::default())
+                    wins(product, tree, &rules, &|pair, _| lost[pair as usize].is_none(), &mut Known::default())
                 }
-                None => hopeful,
+                None => rules.hopeful,
             };
             if !won {
                 rank += 1;
@@ -133,8 +159,8 @@ pub(crate) fn solve(product: &Product<'_>, hopeful: bool) -> Solution {
                 }
             }
         }
-        let waiting = match ever_waits && !product.judge.coupling.waiting {
-            true => waiting(product, hopeful, &lost, &parents),
+        let waiting = match ever_waits && !rules.waiting {
+            true => waiting(product, &rules, &lost, &parents),
             false => Vec::new(),
         };
         if waiting.is_empty() {
@@ -150,12 +176,12 @@ pub(crate) fn solve(product: &Product<'_>, hopeful: bool) -> Solution {
             }
         }
     }
-    let won = wins(product, product.root, hopeful, &|pair, _| lost[pair as usize].is_none(), &mut Known::default());
-    Solution { lost, won, hopeful }
+    let won = wins(product, product.root, &rules, &|pair, _| lost[pair as usize].is_none(), &mut Known::default());
+    Solution { lost, won, rules }
 }
 
 /// The pairs from which the concrete machine can go on for ever while the abstract one makes no step.
-fn waiting(product: &Product<'_>, hopeful: bool, lost: &[Option<Lost>], parents: &[Vec<PairId>]) -> Vec<PairId> {
+fn waiting(product: &Product<'_>, rules: &Rules, lost: &[Option<Lost>], parents: &[Vec<PairId>]) -> Vec<PairId> {
     let count = product.pairs.len();
     let mut moves = vec![false; count];
     let mut queue: VecDeque<PairId> = (0..count as PairId).filter(|pair| lost[*pair as usize].is_none()).collect();
@@ -170,7 +196,7 @@ fn waiting(product: &Product<'_>, hopeful: bool, lost: &[Option<Lost>], parents:
                     0 => moves[pair as usize],
                     _ => lost[pair as usize].is_none(),
                 };
-                wins(product, tree, hopeful, &alive, &mut Known::default())
+                wins(product, tree, rules, &alive, &mut Known::default())
             }
         };
         if won {

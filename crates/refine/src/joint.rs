@@ -339,6 +339,12 @@ pub(crate) fn join(programs: [&Program; 2], limits: &Limits) -> Result<Joint, St
     Ok(Joint { model, program, sources, bridges, of })
 }
 
+/// Whether the elements of a domain are fixed and can all be written.
+pub(crate) fn is_listed(program: &Program, limits: &Limits, domain: DomainId) -> bool {
+    let mut machine = Machine::new(std::sync::Arc::new(program.clone()), limits.clone());
+    written_elements(program, &mut machine, domain).is_some()
+}
+
 /// What a domain is, for comparing it with one of another program: equal texts are equal domains.
 pub(crate) fn described(program: &Program, limits: &Limits, domain: DomainId) -> String {
     let parts = |domains: &[DomainId]| {

@@ -133,6 +133,13 @@ impl<'c> Judge<'c> {
         self.evaluate(sides, formula, [0, state]).0 == Ok(Value::Boolean(true))
     }
 
+    /// Whether each concrete state is either the end of a segment or none: whether it is true or false there.
+    pub fn marks_clearly(&mut self, sides: &mut [Side; 2]) -> bool {
+        let Some(formula) = &self.coupling.segment else { return true };
+        (0..sides[CONCRETE].count() as StateId)
+            .all(|state| matches!(self.evaluate(sides, formula, [0, state]).0, Ok(Value::Boolean(_))))
+    }
+
     /// The values of a function that is to be the same, as the joint model has them.
     fn values(&mut self, sides: &mut [Side; 2], index: usize, side: usize, state: StateId) -> Vec<(Vec<Value>, Value)> {
         let Conjunct::Same { functions, arguments, .. } = &self.coupling.conjuncts[index] else { return Vec::new() };

@@ -10,8 +10,9 @@ use program::PropertyKind;
 
 use crate::coupling::Coupling;
 use crate::evidence;
-use crate::game::solve;
+use crate::game::{Rules, solve};
 use crate::judge::Judge;
+use crate::preserve::preserved;
 use crate::product::{Node, NodeId, Product, Unclear};
 use crate::report::{Assumed, Progress, Report, Vacuous, Verdict, Why};
 use crate::side::{Extent, Side, Stopped};
@@ -143,7 +144,7 @@ fn attempt(
     let verdict = match vacuous(&mut product, is_complete) {
         Some(vacuous) => Verdict::Vacuous(vacuous),
         None => {
-            let hopeful = solve(&product, true);
+            let hopeful = solve(&product, Rules::of(&product, true));
             let of_free = |input: &program::FunctionId| !coupling.shared[ABSTRACT].contains_key(input);
             if !hopeful.won && options.extents[ABSTRACT].bounds.keys().any(of_free) {
                 // With other values of its own inputs it might have had an answer.
@@ -151,7 +152,7 @@ fn attempt(
             } else if !hopeful.won {
                 Verdict::DoesNot(Box::new(evidence::refutation(&mut product, &hopeful)))
             } else {
-                let sure = solve(&product, false);
+                let sure = solve(&product, Rules::of(&product, false));
                 for side in [ABSTRACT, CONCRETE] {
                     if !options.extents[side].bounds.is_empty() {
                         whys.add(Why::Bounded(side));
@@ -179,7 +180,11 @@ fn attempt(
         assumed.extend(invars.map(|property| Assumed { side, name: property.name.clone() }));
     }
     let idle = product.sides[ABSTRACT].steps.1 == 0;
-    Ok(Ok(Report { verdict, progress, diagrams, assumed, idle }))
+    let properties = match verdict {
+        Verdict::Refines => preserved(&mut product),
+        _ => Vec::new(),
+    };
+    Ok(Ok(Report { verdict, progress, diagrams, assumed, idle, properties }))
 }
 
 /// What was not clear anywhere that matters.

@@ -6,6 +6,7 @@ use explore::Unbounded;
 use machine::Cause;
 
 use crate::evidence::Refutation;
+use crate::preserve::Preserved;
 
 /// How far the search is.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -85,4 +86,6 @@ pub struct Report {
     pub assumed: Vec<Assumed>,
     /// The abstract machine makes no step that changes its state.
     pub idle: bool,
+    /// If it refines: the properties of the abstract machine, and whether they come along.
+    pub properties: Vec<Preserved>,
 }

@@ -175,6 +175,11 @@ impl Side {
         self.states.len()
     }
 
+    /// Whether a state that was looked at has no step at all, since assumptions leave none.
+    pub fn has_dead_end(&self) -> bool {
+        self.moves.iter().flatten().any(|moves| moves.is_empty())
+    }
+
     /// The packed state of a number.
     pub fn packed(&self, state: StateId) -> Box<[u64]> {
         self.states[state as usize].clone()

@@ -2,5 +2,6 @@
 
 mod broken;
 mod naive;
+mod preserved;
 mod small;
 mod spec;

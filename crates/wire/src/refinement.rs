@@ -3,7 +3,7 @@
 //! In: a report with the words for its runs. Out: [`Refinement`]: the verdict, the extent, where it fails both runs with their diagrams.
 
 use groundstate::refine::{ABSTRACT, CONCRETE, Ended, Refutation, Report, SIDES, Vacuous, Verdict};
-use groundstate::tell::Refinements;
+use groundstate::tell::{Refinements, Standing};
 use serde::Serialize;
 
 use crate::RunStep;
@@ -37,9 +37,27 @@ pub struct Refinement {
     concrete_states: u64,
     abstract_steps: u64,
     concrete_steps: u64,
+    /// The properties of the abstract machine, if it refines.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    properties: Vec<PropertyLine>,
     /// Both runs, where it does not refine.
     #[serde(skip_serializing_if = "Option::is_none")]
     runs: Option<RunPair>,
+}
+
+/// What a property of the abstract machine is in the concrete one.
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+struct PropertyLine {
+    name: String,
+    /// `holds`; `comes-along`: it holds if it holds of the abstract machine; `violated` or `unknown` there; `stays`: it does not come along.
+    standing: &'static str,
+    /// What it says of the concrete machine, as the concrete model would write it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    form: Option<String>,
+    /// Why it does not come along.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    reason: Option<String>,
 }
 
 /// A diagram.
@@ -140,6 +158,22 @@ impl Refinement {
             concrete_states: progress.states[CONCRETE],
             abstract_steps: progress.steps[ABSTRACT],
             concrete_steps: progress.steps[CONCRETE],
+            properties: report
+                .properties
+                .iter()
+                .map(|property| PropertyLine {
+                    name: property.name.clone(),
+                    standing: match words.standing(property) {
+                        Standing::Stays => "stays",
+                        Standing::Conditional => "comes-along",
+                        Standing::Holds => "holds",
+                        Standing::Violated => "violated",
+                        Standing::Unknown => "unknown",
+                    },
+                    form: property.form.as_ref().ok().cloned(),
+                    reason: property.form.as_ref().err().cloned(),
+                })
+                .collect(),
             runs: refutation.map(|refutation| RunPair::new(words, refutation)),
         }
     }

@@ -3,6 +3,7 @@
 //!
 //! Exit codes: 0 it refines, 1 it does not, or the question says nothing, 2 the coupling cannot be used, 3 not known.
 
+use std::collections::BTreeMap;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
@@ -10,9 +11,10 @@ use clap::Args;
 use groundstate::inputs::bound;
 use groundstate::job::{self, Cancel, RefineEvent};
 use groundstate::refine::{ABSTRACT, CONCRETE, Coupling, Extent, Options, Report, SIDES, Trouble, Verdict, read};
-use groundstate::tell::{Refinements, no_start, trace_of};
-use groundstate::verify::{Progress, Subject};
-use groundstate::{Loaded, refine};
+use groundstate::tell::{Refinements, Standing, no_start, trace_of};
+use groundstate::verify::{Outcome, Progress, Subject};
+use groundstate::{Loaded, refine, verify_preserved};
+use machine::Limits;
 use syntax::{FileId, SourceFile, Sources};
 
 use crate::exit::Exit;
@@ -45,6 +47,9 @@ pub struct Arguments {
     /// The most time, in seconds
     #[arg(long, value_name = "SECONDS", value_parser = crate::limits::count)]
     time: Option<u64>,
+    /// Verify of the abstract model the properties that come along to the concrete one
+    #[arg(long)]
+    properties: bool,
     /// Write both runs of a refutation into this folder, as abstract.avalla and concrete.avalla
     #[arg(long, value_name = "FOLDER")]
     counterexample: Option<PathBuf>,
@@ -109,8 +114,15 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
         }
     }
     let (outcome, coupling) = job.finish().unwrap_or_else(|crashed| panic!("{}", crashed.0));
+    let verified = match &outcome {
+        Ok(report) if arguments.properties => {
+            Some(verify_abstract(&models[ABSTRACT], report, arguments, limits, &mut watch))
+        }
+        _ => None,
+    };
     let timed_out = watch.done();
-    let words = Refinements { models: [&models[0], &models[1]], coupling: &coupling, timed_out };
+    let words =
+        Refinements { models: [&models[0], &models[1]], coupling: &coupling, timed_out, verified: verified.as_ref() };
     let report = match outcome {
         Ok(report) => report,
         Err(trouble) => return no_report(shell, &trouble, [&models[0], &models[1]]),
@@ -120,10 +132,39 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
         write_scenarios(shell, folder, &question.models, &words, refutation)?;
     }
     Ok(match report.verdict {
-        Verdict::Refines => Exit::Good,
+        Verdict::Refines => of_properties(&words, &report),
         Verdict::DoesNot(_) | Verdict::Vacuous(_) => Exit::Model,
         Verdict::Unknown(_) => Exit::Unknown,
     })
+}
+
+/// Verifies the properties of the abstract machine that come along.
+fn verify_abstract(
+    model: &Loaded,
+    report: &Report,
+    arguments: &Arguments,
+    limits: Limits,
+    watch: &mut Watch,
+) -> BTreeMap<usize, Outcome> {
+    let options = groundstate::verify::Options {
+        limits,
+        max_states: arguments.max_states.unwrap_or(u64::MAX),
+        interrupt: interrupt::request().clone(),
+        ..groundstate::verify::Options::default()
+    };
+    let found = verify_preserved(&model.program, &report.properties, &options, &mut |progress| watch.at(progress));
+    // A machine without initial states refines nothing; an interrupt leaves all of it open.
+    found.unwrap_or_default()
+}
+
+/// The exit code of a refinement that holds: that of the properties that were asked for.
+fn of_properties(words: &Refinements<'_>, report: &Report) -> Exit {
+    let has = |wanted: Standing| report.properties.iter().any(|property| words.standing(property) == wanted);
+    match (has(Standing::Violated), has(Standing::Unknown)) {
+        (true, _) => Exit::Model,
+        (_, true) => Exit::Unknown,
+        _ => Exit::Good,
+    }
 }
 
 /// The models and the coupling; the exit code if the coupling file is at fault.

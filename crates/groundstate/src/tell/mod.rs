@@ -19,7 +19,7 @@ pub use extent::{Extent, explored, place_of, why_unreduced};
 pub use found::{FoundChange, FoundStep};
 pub use hint::hint;
 pub use parting::parting;
-pub use refinement::{Refinements, no_start, trace_of};
+pub use refinement::{Refinements, Standing, no_start, trace_of};
 pub use review::says;
 pub use run::{Detail, Narrator};
 pub use story::story;

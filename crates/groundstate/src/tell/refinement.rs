@@ -2,12 +2,15 @@
 //!
 //! In: a report, the coupling, the two models. Out: lines. INVARIANT: the steps have the words that [`Verdicts`] has for runs.
 
+use std::collections::BTreeMap;
+
 use explore::Told;
 use refine::{
-    ABSTRACT, CONCRETE, Coupling, Ended, Part, Refutation, Report, Run, SIDES, Trouble, Vacuous, Verdict, Why,
+    ABSTRACT, CONCRETE, Coupling, Ended, Part, Preserved, Refutation, Report, Run, SIDES, Trouble, Vacuous, Verdict,
+    Why,
 };
 use syntax::Diagnostic;
-use verify::Trace;
+use verify::{Outcome, Trace};
 
 use super::{FoundStep, Verdicts, plural};
 use crate::Loaded;
@@ -26,6 +29,23 @@ pub struct Refinements<'a> {
     pub coupling: &'a Coupling,
     /// Whether the search stopped because its time was up.
     pub timed_out: bool,
+    /// What was found of the abstract machine's properties, by their index; none if nobody asked.
+    pub verified: Option<&'a BTreeMap<usize, Outcome>>,
+}
+
+/// What is known of a property of the abstract machine in the concrete one.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Standing {
+    /// It does not come along.
+    Stays,
+    /// It comes along, and nobody asked whether the abstract machine has it.
+    Conditional,
+    /// It holds of the abstract machine, and so of the concrete one.
+    Holds,
+    /// The abstract machine does not have it.
+    Violated,
+    /// It is not known whether the abstract machine has it.
+    Unknown,
 }
 
 /// A run of a machine as other commands know it.
@@ -54,6 +74,7 @@ impl Refinements<'_> {
     pub fn report(&self, report: &Report) -> String {
         let mut lines = self.verdict(&report.verdict);
         lines.extend(self.extent(report));
+        lines.extend(self.properties(report));
         lines.iter().map(|line| format!("{}\n", line.trim_end())).collect()
     }
 
@@ -159,6 +180,47 @@ impl Refinements<'_> {
             plural(progress.steps[ABSTRACT] as usize, "abstract step"),
             plural(progress.steps[CONCRETE] as usize, "concrete step"),
         ));
+        lines
+    }
+
+    /// What is known of a property of the abstract machine in the concrete one.
+    pub fn standing(&self, property: &Preserved) -> Standing {
+        match (&property.form, self.verified) {
+            (Err(_), _) => Standing::Stays,
+            (Ok(_), None) => Standing::Conditional,
+            (Ok(_), Some(found)) => match found.get(&property.property) {
+                Some(Outcome::Holds) => Standing::Holds,
+                Some(Outcome::Violated(_)) => Standing::Violated,
+                Some(Outcome::Unknown(_)) | None => Standing::Unknown,
+            },
+        }
+    }
+
+    /// The abstract machine's properties, and what they are in the concrete one.
+    fn properties(&self, report: &Report) -> Vec<String> {
+        if report.properties.is_empty() {
+            return Vec::new();
+        }
+        let standings: Vec<Standing> = report.properties.iter().map(|property| self.standing(property)).collect();
+        let mut lines = vec![match standings.contains(&Standing::Conditional) {
+            true => "properties of the abstract machine: what comes along holds of the concrete one if it holds there \
+                     (`--properties` verifies that)"
+                .to_string(),
+            false => "properties of the abstract machine, in the concrete one".to_string(),
+        }];
+        let width =
+            report.properties.iter().map(|property| property.name.chars().count()).max().unwrap_or(0).min(WIDTH);
+        for (property, standing) in report.properties.iter().zip(standings) {
+            let said = match (standing, &property.form) {
+                (Standing::Conditional, Ok(form)) => format!("comes along: {form}"),
+                (Standing::Holds, Ok(form)) => format!("holds: {form}"),
+                (Standing::Violated, Ok(_)) => "does not hold of the abstract machine".to_string(),
+                (Standing::Unknown, Ok(_)) => "not known of the abstract machine".to_string(),
+                (_, Ok(form)) => form.clone(),
+                (_, Err(why)) => format!("does not come along: {why}"),
+            };
+            lines.push(format!("  {:width$}  {said}", property.name));
+        }
         lines
     }
 

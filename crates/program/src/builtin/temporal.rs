@@ -35,6 +35,11 @@ macro_rules! operators {
                 }
             }
 
+            /// The name that formulas are written with.
+            pub fn name(self) -> &'static str {
+                self.declared()[0]
+            }
+
             /// How many arguments it takes.
             pub fn arity(self) -> usize {
                 match self {

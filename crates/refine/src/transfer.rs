@@ -1,0 +1,61 @@
+//! What a proof of refinement says of runs: which states of a concrete run correspond, and how the two runs keep step.
+//!
+//! In: a product whose game is won. Out: a [`Transfer`], by which [`crate::preserve`] decides which properties come along. The same game
+//! is played again by stricter rules: what is still won then is what the abstract machine can keep to. INVARIANT: each answer is what
+//! holds for every run of the concrete machine, never for one that was met.
+
+use crate::CONCRETE;
+use crate::game::{Rules, solve};
+use crate::product::Product;
+
+/// Which concrete states correspond to abstract ones.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Ends {
+    /// All that the concrete machine comes to.
+    Every,
+    /// Those at the ends of segments, which the coupling names; and initial ones.
+    Segments,
+    /// Some, and nothing says which.
+    Some,
+}
+
+/// See the module.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Transfer {
+    /// Which states correspond.
+    pub ends: Ends,
+    /// An initial state is none that the coupling names as the end of a segment.
+    pub begins_inside: bool,
+    /// No diagram needs several abstract steps: no abstract state is passed over.
+    pub each: bool,
+    /// The concrete machine never goes on for ever while the abstract one makes no step, and has a step in every state.
+    pub live: bool,
+    /// Diagrams of one step each are enough.
+    pub exact: bool,
+}
+
+impl Transfer {
+    /// Of a product whose game is won by the coupling's rules.
+    pub(crate) fn of(product: &mut Product<'_>) -> Transfer {
+        let rules = Rules::of(product, false);
+        let is_won = |product: &Product<'_>, rules: Rules| solve(product, rules).won;
+        let single = Rules { most_n: 1, ..rules };
+        let segments = product.judge.coupling.segment.is_some();
+        let (ends, rules) = match is_won(product, single) {
+            true => (Ends::Every, single),
+            false if segments && product.judge.marks_clearly(&mut product.sides) => (Ends::Segments, rules),
+            false => (Ends::Some, rules),
+        };
+        let each = Rules { most_m: 1, ..rules };
+        let live = Rules { waiting: false, ..each };
+        let exact = Rules { least_m: 1, ..live };
+        // A state without a step is one in which a run stays for ever; the proof says nothing of that.
+        let goes_on = !product.sides[CONCRETE].has_dead_end();
+        let begun: Vec<u32> = product.begun.iter().map(|(_, state, _)| *state).collect();
+        let begins_inside = begun.into_iter().any(|state| !product.judge.ends(&mut product.sides, state));
+        let each_holds = is_won(product, each);
+        let live_holds = each_holds && goes_on && is_won(product, live);
+        let exact_holds = live_holds && ends == Ends::Every && is_won(product, exact);
+        Transfer { ends, begins_inside, each: each_holds, live: live_holds, exact: exact_holds }
+    }
+}
