@@ -105,6 +105,7 @@ fn node(name: &str, figure: Figure, text: &str, details: Vec<Detail>) -> Node {
         id: name.to_string(),
         figure,
         dashed: false,
+        named: false,
         lines,
         details,
         link: None,

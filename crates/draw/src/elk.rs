@@ -234,6 +234,7 @@ pub fn shape_at(node: &Node, (x, y): (f64, f64)) -> Placed {
         id: node.id.clone(),
         figure: node.figure,
         dashed: node.dashed,
+        named: node.named,
         initial: node.initial,
         lines: node.lines.clone(),
         details: node.details.clone(),

@@ -37,6 +37,8 @@ pub struct Placed {
     pub figure: Figure,
     /// Drawn dashed.
     pub dashed: bool,
+    /// Drawn in long dashes: what refines it is named.
+    pub named: bool,
     /// Drawn with a double line: the machine starts here.
     pub initial: bool,
     /// The text in it.

@@ -17,6 +17,8 @@ pub struct Node {
     pub id: String,
     pub figure: Figure,
     pub dashed: bool,
+    /// Drawn in long dashes: what refines it is named.
+    pub named: bool,
     pub lines: Vec<String>,
     /// Small lines below.
     pub details: Vec<Detail>,
@@ -136,6 +138,7 @@ fn point(id: String, figure: Figure) -> Node {
         id,
         figure,
         dashed: false,
+        named: false,
         lines: Vec::new(),
         details: Vec::new(),
         link: None,
@@ -197,6 +200,7 @@ fn node(chart: &Chart, machine: &Machine, id: ShapeId, radius: f64) -> Node {
         id: shape.name.clone(),
         figure,
         dashed: shape.refinement.is_some(),
+        named: shape.refinement.as_ref().is_some_and(|refinement| refinement.by.is_some()),
         lines,
         details,
         place: None,

@@ -144,12 +144,17 @@ fn rounded(path: &mut String, before: (f64, f64), corner: (f64, f64), next: (f64
 fn figure(out: &mut String, shape: &Placed) {
     let Placed { x, y, width, height, .. } = *shape;
     let (cx, cy) = (x + width / 2.0, y + height / 2.0);
-    let dashed = if shape.dashed { " refine" } else { "" };
+    // A rule of the style sheet would win over an attribute of its own.
+    let (dashed, dashes) = match (shape.dashed, shape.named) {
+        (false, _) => ("", ""),
+        (true, false) => (" refine", ""),
+        (true, true) => (" refine", " style=\"stroke-dasharray:14 3\""),
+    };
     match shape.figure {
         Figure::Circle => {
             let _ = writeln!(
                 out,
-                "<circle class=\"shape state{dashed}\" cx=\"{}\" cy=\"{}\" r=\"{}\"/>",
+                "<circle class=\"shape state{dashed}\"{dashes} cx=\"{}\" cy=\"{}\" r=\"{}\"/>",
                 N(cx),
                 N(cy),
                 N(width / 2.0)
@@ -171,7 +176,7 @@ fn figure(out: &mut String, shape: &Placed) {
                 (x + c, y + height),
             ];
             let points: Vec<String> = points.iter().map(|(x, y)| format!("{},{}", N(*x), N(*y))).collect();
-            let _ = writeln!(out, "<polygon class=\"shape guard{dashed}\" points=\"{}\"/>", points.join(" "));
+            let _ = writeln!(out, "<polygon class=\"shape guard{dashed}\"{dashes} points=\"{}\"/>", points.join(" "));
         }
         Figure::Enter | Figure::Exit | Figure::Composite => {}
         _ => {
@@ -179,7 +184,7 @@ fn figure(out: &mut String, shape: &Placed) {
             let round = N(round.min(height / 2.0));
             let _ = writeln!(
                 out,
-                "<rect class=\"shape {class}{dashed}\" x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" rx=\"{round}\"/>",
+                "<rect class=\"shape {class}{dashed}\"{dashes} x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" rx=\"{round}\"/>",
                 N(x),
                 N(y),
                 N(width),

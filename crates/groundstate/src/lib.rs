@@ -17,6 +17,7 @@ pub mod job;
 mod kind;
 pub mod mutation;
 mod overlay;
+mod owed;
 pub mod patterns;
 pub mod reporting;
 pub mod session;
@@ -51,6 +52,7 @@ pub use fault::verification::{
 pub use fingerprint::{fingerprint, text_fingerprint};
 pub use kind::{Kind, has_ending, model_of};
 pub use overlay::{Overlay, Said};
+pub use owed::{Owed, OwedProof, owed};
 pub use test::{SeededChoices, Suite, Tested, own_files};
 pub use verified_system::{GroundRun, VerifiedSystem, not_kept, verified_system};
 pub use verify_preserved::verify_preserved;

@@ -14,6 +14,8 @@ use crate::files::read_text;
 use crate::shell::Shell;
 use crate::solver::Process;
 
+use super::obligation::{self, Asked, Told};
+
 /// Arguments of `chart check`.
 #[derive(Debug, Args)]
 pub struct Arguments {
@@ -25,6 +27,15 @@ pub struct Arguments {
     /// The SMT solver that decides guards over numbers: a program or `none`. Default: z3 or cvc5 from the PATH
     #[arg(long, value_name = "PROGRAM")]
     solver: Option<PathBuf>,
+    /// Prove or refute that the machines named behind `to refine by` refine the actions
+    #[arg(long)]
+    prove: bool,
+    /// Take for granted that a machine which waits for something outside is not kept waiting for ever
+    #[arg(long, requires = "prove")]
+    allow_waiting: bool,
+    /// The most time for one proof, in seconds
+    #[arg(long, value_name = "SECONDS", requires = "prove", value_parser = crate::limits::count)]
+    time: Option<u64>,
 }
 
 /// Runs the command.
@@ -56,7 +67,7 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     let root = shell.disk().root(&arguments.file)?;
     let mut checked = groundstate::check(SourceFile::new(name, probed.text.clone()), &mut shell.disk());
     // Faults may point into the chart, besides the model.
-    let loaded = chart::load_beside(std::mem::take(&mut checked.sources), root, &mut shell.disk());
+    let loaded = chart::load_beside(std::mem::take(&mut checked.sources), root.clone(), &mut shell.disk());
     let mut chart = loaded.chart;
     checked.sources = loaded.sources;
     // Faults of the imports are also the model's and are reported there.
@@ -65,9 +76,18 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
         &arguments.file.with_file_name("Imports.asm").display().to_string(),
         &mut shell.disk(),
     );
+    let model = SourceFile::new(path.display().to_string(), specification);
     let mut solver = Process::find(arguments.solver.as_deref());
     let faults = chart::check(&chart, &probed, &checked, &mut solver);
-    let (notes, faults): (Vec<_>, Vec<_>) = faults.into_iter().partition(|fault| fault.severity == Severity::Note);
+    let (mut notes, faults): (Vec<_>, Vec<_>) = faults.into_iter().partition(|fault| fault.severity == Severity::Note);
+    let differs = groundstate::has_errors(&faults);
+    let owed = groundstate::owed(&root, &chart, &model, &mut shell.disk());
+    let asked = arguments.prove.then_some(Asked { waiting: arguments.allow_waiting, time: arguments.time });
+    let told = obligation::told(shell, &arguments.file, &owed, asked, differs);
+    for (owed, told) in owed.iter().zip(&told) {
+        let note = notes.iter_mut().find(|note| note.primary.span == owed.obligation.span);
+        note.into_iter().for_each(|note| note.help = Some(told.words()));
+    }
     shell.diagnostics(&checked.sources, &faults)?;
     if shell.json() {
         shell.diagnostics(&checked.sources, &notes)?;
@@ -86,11 +106,25 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
         let more = if warnings == 0 { String::new() } else { format!(", {}", plural(warnings, "warning")) };
         let verdict = verdict + &more;
         writeln!(shell.out(), "{}: {verdict}", arguments.file.display())?;
-        for note in &notes {
+        for note in notes.iter().filter(|note| note.id != "to-refine") {
             writeln!(shell.out(), "  {}: {}", checked.sources.position(note.primary.span), note.message)?;
         }
+        for (owed, told) in owed.iter().zip(&told) {
+            let (place, name) = (checked.sources.position(owed.obligation.span), &owed.obligation.shape);
+            let by = owed.obligation.by.as_ref().map_or_else(String::new, |by| format!(" by `{by}`"));
+            writeln!(shell.out(), "  {place}: `{name}`, to refine{by}: {}", told.words())?;
+            if let Told::Refuted { report, .. } = told {
+                report.lines().try_for_each(|line| writeln!(shell.out(), "    {line}"))?;
+            }
+        }
     }
-    Ok(if groundstate::has_errors(&faults) { Exit::Model } else { Exit::Good })
+    let refuted = told.iter().any(|told| matches!(told, Told::Refuted { .. }));
+    let unknown = told.iter().any(|told| matches!(told, Told::Unknown(_)));
+    Ok(match (differs || refuted, unknown) {
+        (true, _) => Exit::Model,
+        (_, true) => Exit::Unknown,
+        _ => Exit::Good,
+    })
 }
 
 /// Nothing was compared.

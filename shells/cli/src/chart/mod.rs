@@ -6,6 +6,7 @@ mod draw;
 mod export;
 mod extract;
 mod import;
+mod obligation;
 mod place;
 mod times;
 
