@@ -42,5 +42,5 @@ pub use refactor::{Refactoring, RefactoringKind, refactorings};
 pub use rename::{Edits, prepare, rename};
 pub use report::{Fault, Report, Weight, reports};
 pub use signature::{Signature, Signatures, signatures};
-pub use structure::{FoldKind, folding, formatted, selections};
+pub use structure::{FoldKind, folding, formatted, formatted_text, selections};
 pub use tokens::{Coloured, Modifier, TokenKind, tokens};

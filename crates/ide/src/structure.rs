@@ -2,9 +2,12 @@
 //!
 //! In: a tree, however broken. Out: ranges of bytes, or the new text.
 
+use std::path::Path;
+
+use groundstate::Kind;
 use groundstate::workspace::Files;
 use syntax::ast::trimmed_range;
-use syntax::{Severity, SyntaxKind, SyntaxNode};
+use syntax::{FileId, Severity, SyntaxKind, SyntaxNode};
 
 use crate::project::Project;
 
@@ -121,11 +124,28 @@ pub fn selections<F: Files>(project: &mut Project<F>, path: &str, offset: u32) -
 /// It has faults, or is of a kind that has no canonical layout.
 pub fn formatted<F: Files>(project: &mut Project<F>, path: &str) -> Result<String, String> {
     let analysis = project.analysis(path).map_err(|absent| absent.told(path))?;
+    if Kind::of(Path::new(path)) == Some(Kind::Coupling) {
+        return formatted_text(path, analysis.text());
+    }
     match analysis.parse() {
-        None => Err("only models, scenarios and charts have a canonical layout".to_string()),
+        None => Err("only models, scenarios, charts and couplings have a canonical layout".to_string()),
         Some(parse) if parse.diagnostics.iter().any(|fault| fault.severity == Severity::Error) => {
             Err("a text with errors is not formatted".to_string())
         }
         Some(parse) => Ok(syntax::format(parse)),
+    }
+}
+
+/// A coupling's text in its canonical layout.
+///
+/// # Errors
+/// It has faults, or is of another kind.
+pub fn formatted_text(path: &str, text: &str) -> Result<String, String> {
+    match Kind::of(Path::new(path)) {
+        Some(Kind::Coupling) => {
+            let formatted = groundstate::refine::format(FileId(0), text);
+            formatted.map_err(|_| "a text with errors is not formatted".to_string())
+        }
+        _ => Err("only models, scenarios, charts and couplings have a canonical layout".to_string()),
     }
 }

@@ -13,6 +13,7 @@ mod fault;
 mod game;
 mod joint;
 mod judge;
+mod layout;
 mod preserve;
 mod product;
 mod refine;
@@ -26,11 +27,12 @@ pub use coupling::{Coupling, Faulty};
 pub use diagram::{Diagram, Diagrams};
 pub use evidence::{Differs, Ended, Part, Refutation, Run, Segment, Tried};
 pub use fault::IDS;
+pub use layout::format;
 pub use preserve::Preserved;
 pub use refine::{Options, Trouble, refine};
 pub use report::{Assumed, Progress, Report, Vacuous, Verdict, Why};
 pub use side::Extent;
-pub use written::{Mapped, Part as WrittenPart, Written, read};
+pub use written::{Mapped, Part as WrittenPart, WORDS, Written, read};
 
 /// The abstract machine's place in a pair.
 pub const ABSTRACT: usize = 0;

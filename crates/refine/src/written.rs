@@ -50,7 +50,8 @@ pub struct Written {
 }
 
 /// The words that statements begin with.
-const WORDS: [&str; 9] = ["abstract", "allow", "concrete", "couple", "diagrams", "free", "input", "same", "segment"];
+pub const WORDS: [&str; 9] =
+    ["abstract", "allow", "concrete", "couple", "diagrams", "free", "input", "same", "segment"];
 
 impl Written {
     /// A file that says nothing: the default coupling.
@@ -59,6 +60,32 @@ impl Written {
         let (segment, diagrams, inputs, free) = (None, None, Vec::new(), Vec::new());
         Written { file, models, same, couples, segment, diagrams, inputs, free, waiting: false }
     }
+}
+
+/// A statement as it stands.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Statement {
+    /// The word that it begins with.
+    pub word: Part,
+    /// What stands between the word and the `;`.
+    pub body: Part,
+    /// The place behind the `;`.
+    pub end: usize,
+}
+
+/// The statements of a text that says something, in its order.
+///
+/// # Errors
+/// The first place that says nothing.
+pub(crate) fn statements(file: FileId, text: &str) -> Result<Vec<Statement>, Box<Diagnostic>> {
+    read(file, text)?;
+    let mut reader = Reader { file, text, at: 0 };
+    let mut all = Vec::new();
+    while let Some(word) = reader.word()? {
+        let body = reader.body(&word)?;
+        all.push(Statement { word, body, end: reader.at });
+    }
+    Ok(all)
 }
 
 /// What a text says.

@@ -1,7 +1,7 @@
 //! Half of a coupling's text is missing, changed or out of order: there is a fault at a place in it, or a verdict, and no panic.
 
-use refine::{Coupling, IDS, Options, refine};
-use syntax::SourceFile;
+use refine::{Coupling, IDS, Options, format, refine};
+use syntax::{FileId, SourceFile};
 use testkit::Page;
 
 use crate::small::example;
@@ -21,6 +21,12 @@ fn broken_couplings_have_faults_at_their_places() {
         page.blocks().into_iter().filter(|block| block.info.starts_with("refine")).map(|block| block.text).collect();
     let (one, other) = (example(models[2]), example(models[3]));
     let check = |text: &str| {
+        // What can be laid out at all keeps its words, and stays as it is when it is laid out again.
+        if let Ok(formatted) = format(FileId(0), text) {
+            let words = |text: &str| text.split_whitespace().collect::<String>();
+            assert_eq!(words(text), words(&formatted));
+            assert_eq!(format(FileId(0), &formatted).as_ref(), Ok(&formatted), "{text:?}");
+        }
         let file = SourceFile::new("c.refine", text);
         match Coupling::new([&one, &other], Some(file), &machine::Limits::default()) {
             Err(faulty) => {

@@ -25,6 +25,7 @@ async function start(): Promise<void> {
       { scheme: "file", language: "asmetal" },
       { scheme: "file", language: "avalla" },
       { scheme: "file", language: "groundstate-chart" },
+      { scheme: "file", language: "groundstate-coupling" },
       { scheme: "file", pattern: "**/*.{report,verify}.yaml" },
     ],
     initializationOptions: { commands: true },

@@ -1,4 +1,4 @@
-//! `groundstate fmt PATH…`: formats models, scenarios and charts.
+//! `groundstate fmt PATH…`: formats models, scenarios, charts and couplings.
 //!
 //! A file is replaced only as a whole, and only if its tokens and comments stay the same. A file with syntax faults is
 //! not touched. A file keeps its line ends.
@@ -20,7 +20,7 @@ use crate::shell::Shell;
 /// Arguments of `fmt`.
 #[derive(Debug, Args)]
 pub struct Arguments {
-    /// Models (.asm), scenarios (.avalla) and charts (.chart), or folders of them; `-` reads standard input and writes standard output
+    /// Models (.asm), scenarios (.avalla), charts (.chart) and couplings (.refine), or folders of them; `-` reads standard input and writes standard output
     #[arg(required = true, value_name = "PATH")]
     paths: Vec<PathBuf>,
     /// Write nothing: list the files that formatting would change, and exit with 1 if there are any
@@ -58,7 +58,7 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
         return standard_input(shell, arguments.check);
     }
     let mut counts = Counts::default();
-    for path in collect(&arguments.paths, &["asm", "avalla", "chart"])? {
+    for path in collect(&arguments.paths, &["asm", "avalla", "chart", "refine"])? {
         one(shell, &path, arguments.check, &mut counts)?;
     }
     if shell.talks() && !arguments.check {
@@ -74,9 +74,6 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
 }
 
 fn one(shell: &mut Shell, path: &Path, check: bool, counts: &mut Counts) -> Result<(), Failure> {
-    if has_ending(path, "refine") {
-        return Err(Failure::usage(format!("{} is a coupling, which has no layout of its own", path.display())));
-    }
     let source = read_source(path, shell.global.limits.max_file_size)?;
     let name = source.name.clone();
     let layout = layout(shell, source)?;
@@ -136,6 +133,9 @@ fn layout(shell: &mut Shell, source: SourceFile) -> Result<Layout, Failure> {
         return Err(Failure::usage_with_help(message, "save it as UTF-8; `groundstate check` shows the first place"));
     }
     let text = source.text.clone();
+    if has_ending(Path::new(&source.name), "refine") {
+        return coupling(shell, source);
+    }
     let grammar = grammar(&source);
     let mut sources = Sources::default();
     let file = sources.add(source);
@@ -153,8 +153,26 @@ fn layout(shell: &mut Shell, source: SourceFile) -> Result<Layout, Failure> {
         shell.report_failure(&Failure::usage(message));
         return Ok(Layout::Refused);
     }
+    Ok(laid_out(&text, formatted))
+}
+
+/// A coupling, which has a layout of its own.
+fn coupling(shell: &mut Shell, source: SourceFile) -> Result<Layout, Failure> {
+    let text = source.text.clone();
+    let mut sources = Sources::default();
+    let file = sources.add(source);
+    match groundstate::refine::format(file, &text) {
+        Ok(formatted) => Ok(laid_out(&text, formatted)),
+        Err(fault) => {
+            shell.diagnostic(&sources, &fault)?;
+            Ok(Layout::Faulty)
+        }
+    }
+}
+
+fn laid_out(text: &str, formatted: String) -> Layout {
     let formatted = if text.contains("\r\n") { with_carriage_returns(&formatted) } else { formatted };
-    Ok(if *formatted == *text { Layout::Kept } else { Layout::Changed(formatted) })
+    if *formatted == *text { Layout::Kept } else { Layout::Changed(formatted) }
 }
 
 /// The grammar of a file: a scenario begins with that word; otherwise the file's name decides.

@@ -58,7 +58,7 @@ pub fn capabilities(settings: &Settings) -> ServerCapabilities {
         })),
         hover_provider: Some(HoverProviderCapability::Simple(true)),
         completion_provider: Some(CompletionOptions {
-            trigger_characters: letters(&["$", "(", "[", "="]),
+            trigger_characters: letters(&["$", "(", "[", "=", "."]),
             ..CompletionOptions::default()
         }),
         signature_help_provider: Some(SignatureHelpOptions {

@@ -2,6 +2,9 @@
 //!
 //! In: a method and parameters as JSON. Out: the answer as JSON, or an error with its code. Nothing here waits or sends.
 
+use std::path::Path;
+
+use groundstate::Kind;
 use ide::{Action, FoldKind, RefactoringKind, Role};
 use lsp_server::ErrorCode;
 use lsp_types::request::{self as method, Request};
@@ -134,6 +137,11 @@ fn hover(answers: &mut Answers, params: HoverParams) -> Option<Option<Hover>> {
 
 fn completion(answers: &mut Answers, params: CompletionParams) -> Option<Option<CompletionResponse>> {
     let (path, at) = answers.at(&params.text_document_position)?;
+    // In a coupling a dot stands behind a machine; elsewhere it is part of a number, or behind an agent.
+    let typed = params.context.as_ref().and_then(|context| context.trigger_character.as_deref());
+    if typed == Some(".") && Kind::of(Path::new(&path)) != Some(Kind::Coupling) {
+        return Some(None);
+    }
     let found = ide::completion(&mut answers.project, &path, at);
     let range = answers.range(&path, found.range);
     let items = found.items.iter().enumerate().map(|(index, item)| answers.item(range, index, item)).collect();

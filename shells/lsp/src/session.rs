@@ -361,9 +361,7 @@ fn formatted(path: &str, text: &str) -> Result<String, String> {
         Some(Kind::Model) => syntax::parse_asmetal(FileId(0), text),
         Some(Kind::Scenario) => syntax::parse_avalla(FileId(0), text),
         Some(Kind::Chart) => syntax::parse_chart(FileId(0), text),
-        Some(Kind::Report | Kind::Verification | Kind::Coupling) | None => {
-            return Err("only models, scenarios and charts have a canonical layout".to_string());
-        }
+        Some(Kind::Report | Kind::Verification | Kind::Coupling) | None => return ide::formatted_text(path, text),
     };
     if parse.diagnostics.iter().any(|fault| fault.severity == Severity::Error) {
         return Err("a text with errors is not formatted".to_string());

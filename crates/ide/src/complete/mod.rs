@@ -3,6 +3,7 @@
 //! In: a project, a file and an offset. Out: [`Item`]s, the likely ones first. The tokens before the place decide what may stand
 //! there, so that a text with faults is as good as a sound one; `place` reads them, `scope` knows the variables.
 
+mod coupling;
 mod item;
 mod place;
 mod scope;
@@ -39,6 +40,11 @@ pub fn completion<F: Files>(project: &mut Project<F>, path: &str, offset: u32) -
     let Ok(analysis) = project.analysis(path) else { return nothing };
     if let Some(kind @ (Kind::Report | Kind::Verification)) = Kind::of(Path::new(path)) {
         return in_specification(project, &analysis, kind, offset).unwrap_or(nothing);
+    }
+    if Kind::of(Path::new(path)) == Some(Kind::Coupling) {
+        let Some((range, mut items)) = coupling::completion(project, &analysis, offset) else { return nothing };
+        in_order(&mut items);
+        return Completion { range, items };
     }
     let Some(place) = place::at(&analysis, offset) else { return nothing };
     let mut items = match &place.wanted {
