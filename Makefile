@@ -106,8 +106,9 @@ msrv: ## the workspace, checked by the oldest Rust that Cargo.toml promises, if 
 	    CARGO_TARGET_DIR=target/oldest rustup run $(OLDEST) cargo check --workspace --locked; \
 	else echo "msrv: not checked: Rust $(OLDEST) is not installed (rustup toolchain install $(OLDEST) --profile minimal)"; fi
 
-verify: $(GROUNDSTATE) ## the pattern library's properties in every state, its seeded faults found, the reference systems counted: minutes, 4 GB
+verify: $(GROUNDSTATE) ## the pattern library's properties in every state, its seeded faults found, its refinements, the reference systems counted: minutes, 4 GB
 	sh library/verification/verify.sh $(GROUNDSTATE) expected.txt expected-long.txt
+	sh library/refinement/refine.sh $(GROUNDSTATE) expected.txt expected-long.txt
 	sh library/verification/mutants.sh $(GROUNDSTATE) mutants.txt
 	sh examples/sorting_cell/check.sh $(GROUNDSTATE) whole
 

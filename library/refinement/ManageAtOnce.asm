@@ -1,10 +1,12 @@
 /* Writing to a swinging buffer as a master, as the paper's listing has it: the master writes, and then manages the buffer in one step,
    which takes the lock, swaps the arrays and gives the lock back. A slave reads under the same lock.
 
-   ManageInTwo refines it: there the lock is asked for in one step, and used in the next. */
+   It refines Latest, a shared value. ManageInTwo refines it: there the lock is asked for in one step, and used in the next. */
 asm ManageAtOnce
 
 import ../std/StandardLibrary
+
+export *
 
 signature:
 	enum domain Who = {WRITER | READER}
