@@ -33,6 +33,9 @@ definitions:
 				stand($next) := IN
 		endpar
 
+	invariant inv_onePermit over stand:
+		(forall $u in User, $v in User with (stand($u) = IN and stand($v) = IN) implies $u = $v)
+
 	main rule r_Main =
 		choose $user in User with true do
 			switch stand($user)

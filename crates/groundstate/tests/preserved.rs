@@ -197,7 +197,11 @@ struct Way {
     mirrored: bool,
 }
 
-const WAYS: [Way; 16] = [
+const WAYS: [Way; 17] = [
+    Way {
+        coupling: "couple (abstract.n = 0) = (concrete.n = 0); couple (abstract.n = 2) = (concrete.n = 2); couple (forall $i in N with (not abstract.f($i)) = not concrete.f($i));",
+        mirrored: false,
+    },
     Way { coupling: "same n; segment not concrete.w and concrete.n != 0;", mirrored: false },
     Way { coupling: "couple abstract.n = concrete.n and not concrete.w; diagrams 0..1:1..2;", mirrored: false },
     Way { coupling: "same n;", mirrored: false },

@@ -7,6 +7,7 @@
 
 mod build;
 mod coupling;
+mod determined;
 mod diagram;
 mod evidence;
 mod fault;

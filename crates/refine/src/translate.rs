@@ -1,7 +1,8 @@
 //! Writes a property of the abstract machine as the concrete model would write it, by what the coupling says of its functions.
 //!
 //! In: a coupling, a property. Out: its text over the concrete machine's functions, or a clause that says what has no counterpart. A
-//! function is known if it is the same in both machines, or if a part of the coupling says `abstract.f = TERM` of concrete functions.
+//! function is known if it is the same in both machines, or if a part of the coupling says `abstract.f = TERM` of concrete functions; a
+//! term is known if a part says that it is equal to one of concrete functions.
 //! INVARIANT: in corresponding states the text has the value that the property has; where that is not certain (a domain with other
 //! elements, an argument that the coupling does not compare, an order of elements), nothing is written.
 
@@ -13,8 +14,9 @@ use program::{
     PropertyKind, Quantifier, ShowsOrder, Slot, TemporalOperator, Term, TermId, TermList,
 };
 
-use crate::coupling::{Conjunct, Coupling};
-use crate::joint::{described, is_listed, joint_name};
+use crate::coupling::Coupling;
+use crate::determined::{Determined, Equation, Known};
+use crate::joint::{described, is_listed};
 use crate::{ABSTRACT, CONCRETE};
 
 /// LIMIT: so many terms are written for one property.
@@ -58,15 +60,6 @@ struct Variable {
 
 type Scope = BTreeMap<Slot, Variable>;
 
-/// What is known of a function of the abstract machine.
-#[derive(Debug, Clone)]
-enum Known {
-    /// It is this concrete function, at all arguments in its domains; or at all whatever.
-    Same { function: FunctionId, everywhere: bool },
-    /// It is this term of the joint model, over variables that stand for its arguments.
-    Term { parameters: Vec<Slot>, body: TermId },
-}
-
 /// Whose terms are written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Of {
@@ -78,7 +71,7 @@ enum Of {
 pub(crate) struct Translation<'c> {
     coupling: &'c Coupling,
     limits: Limits,
-    known: BTreeMap<FunctionId, Known>,
+    known: Determined,
     /// Where the states are that correspond, if not everywhere.
     segment: Option<Result<String, String>>,
     /// By owner and domain, its name in the concrete model if it has the same elements there.
@@ -90,12 +83,9 @@ pub(crate) struct Translation<'c> {
 impl<'c> Translation<'c> {
     /// With `segments` only states in which segments end correspond.
     pub fn new(coupling: &'c Coupling, segments: bool) -> Translation<'c> {
-        let (known, limits) = (BTreeMap::new(), Limits::default());
-        let mut translation =
-            Translation { coupling, limits, known, segment: None, domains: BTreeMap::new(), left: TERMS, depth: 0 };
-        for conjunct in &coupling.conjuncts {
-            translation.learn(conjunct);
-        }
+        let limits = Limits::default();
+        let (known, domains) = (Determined::by(coupling, &limits), BTreeMap::new());
+        let mut translation = Translation { coupling, limits, known, segment: None, domains, left: TERMS, depth: 0 };
         let segment = coupling.segment.as_ref().filter(|_| segments);
         translation.segment = segment.map(|formula| {
             translation.left = TERMS;
@@ -123,96 +113,71 @@ impl<'c> Translation<'c> {
         }
     }
 
-    /// Notes what a part of the coupling says of one function.
-    fn learn(&mut self, conjunct: &Conjunct) {
-        let (coupling, joint) = (self.coupling, &self.coupling.joint.program);
-        match conjunct {
-            Conjunct::Same { name, functions, arguments } => {
-                let [one, other] = *functions;
-                let [here, there] = [ABSTRACT, CONCRETE].map(|side| coupling.programs[side].function(functions[side]));
-                let codomain = |side: usize| {
-                    let function = joint.find_function(&joint_name(side, name), here.parameters.len())?;
-                    Some(joint.base_domain(joint.function(function).codomain))
-                };
-                let fits = codomain(ABSTRACT).is_some() && codomain(ABSTRACT) == codomain(CONCRETE);
-                let same = here.parameters.len() == there.parameters.len()
-                    && here.parameters.iter().zip(&there.parameters).all(|(here, there)| {
-                        described(&coupling.programs[ABSTRACT], &self.limits, *here)
-                            == described(&coupling.programs[CONCRETE], &self.limits, *there)
-                    });
-                if fits && same {
-                    let known = Known::Same { function: other, everywhere: arguments.is_none() };
-                    self.known.entry(one).or_insert(known);
-                }
-            }
-            Conjunct::Term { formula, .. } => self.learn_of(formula.body, &[]),
-        }
-    }
-
-    /// Notes what a term says that holds for all values of these variables.
-    fn learn_of(&mut self, term: TermId, variables: &[(Slot, DomainId)]) {
-        let joint = &self.coupling.joint.program;
-        match joint.term(term) {
-            Term::Builtin { builtin: Builtin::And, arguments } => {
-                joint.term_list(*arguments).iter().for_each(|part| self.learn_of(*part, variables));
-            }
-            Term::Builtin { builtin: Builtin::Eq | Builtin::Iff, arguments } => {
-                let &[left, right] = joint.term_list(*arguments) else { return };
-                self.learn_equation(left, right, variables);
-                self.learn_equation(right, left, variables);
-            }
-            Term::Quantified { quantifier: Quantifier::Forall, binders, condition: Some(condition) } => {
-                let mut inside = variables.to_vec();
-                for binder in joint.binder_list(*binders) {
-                    let Term::Domain(domain) = joint.term(binder.range) else { return };
-                    inside.push((binder.slot, *domain));
-                }
-                self.learn_of(*condition, &inside);
-            }
-            _ => {}
-        }
-    }
-
-    /// Notes `left` = `right` if the one is an abstract function at all its arguments, and the other a concrete term.
-    fn learn_equation(&mut self, left: TermId, right: TermId, variables: &[(Slot, DomainId)]) {
-        let coupling = self.coupling;
-        let joint = &coupling.joint.program;
-        let Term::Read { function, arguments } = joint.term(left) else { return };
-        let Some((ABSTRACT, there)) = coupling.joint.of.get(function) else { return };
-        let declared = joint.function(*function);
-        let mut parameters = Vec::new();
-        for (argument, domain) in joint.term_list(*arguments).iter().zip(&declared.parameters) {
-            let Term::Slot(slot) = joint.term(*argument) else { return };
-            // Each variable once, and over all of the domain.
-            if parameters.contains(slot) || !variables.contains(&(*slot, *domain)) {
-                return;
-            }
-            parameters.push(*slot);
-        }
-        let used = |slot: &Slot| parameters.contains(slot);
-        let is_concrete = self.reads(right, &mut |side| side == CONCRETE);
-        if is_concrete
-            && variables.iter().all(|(slot, _)| used(slot))
-            && joint.base_domain(declared.codomain) == joint.base_domain(joint.term_domain(right))
-        {
-            self.known.entry(*there).or_insert(Known::Term { parameters, body: right });
-        }
-    }
-
-    /// Whether all functions that a term of the joint model reads are of sides that `fits` admits.
-    fn reads(&self, term: TermId, fits: &mut dyn FnMut(usize) -> bool) -> bool {
-        let joint = &self.coupling.joint;
-        let mut open = vec![term];
-        let mut all = true;
-        while let Some(id) = open.pop() {
-            if let Term::Read { function, .. } = joint.program.term(id)
-                && let Some((side, _)) = joint.of.get(function)
+    /// What a term of the abstract machine is equal to by an equation as a whole.
+    fn by_equation(&mut self, id: TermId, scope: &Scope) -> Option<Written> {
+        for equation in self.known.equations.clone() {
+            let mut bound = BTreeMap::new();
+            if self.matches(&equation, equation.term, id, scope, &mut bound)
+                && equation.variables.iter().all(|slot| bound.contains_key(slot))
             {
-                all &= fits(*side);
+                return Some(self.term(Of::Joint, equation.equal, &bound));
             }
-            joint.program.each_child_of_term(id, &mut |child| open.push(child));
         }
-        all
+        None
+    }
+
+    /// Whether a term of the abstract machine is one of the joint model, with these values for the variables of an equation.
+    fn matches(&self, equation: &Equation, joint: TermId, own: TermId, scope: &Scope, bound: &mut Scope) -> bool {
+        let (coupling, program) = (self.coupling, self.program(Of::Abstract));
+        let model = &coupling.joint.program;
+        let all = |one: &TermList, other: &TermList| {
+            let (one, other) = (model.term_list(*one), program.term_list(*other));
+            (one.len() == other.len()).then(|| one.iter().copied().zip(other.iter().copied()).collect::<Vec<_>>())
+        };
+        match (model.term(joint), program.term(own)) {
+            (Term::Constant(one), Term::Constant(other)) => {
+                let [one, other] = [(model, one), (program, other)].map(|(program, index)| {
+                    let literal = &program.constants[*index as usize];
+                    match literal {
+                        Literal::Enum(domain, place) => match &program.domain(*domain).kind {
+                            DomainKind::Enum { literals } => Err(literals[*place as usize].clone()),
+                            _ => Ok(literal.clone()),
+                        },
+                        _ => Ok(literal.clone()),
+                    }
+                });
+                one == other
+            }
+            (Term::Builtin { builtin: one, arguments }, Term::Builtin { builtin: other, arguments: own }) => {
+                let same = one == other && is_plain(*one);
+                let Some(pairs) = all(arguments, own).filter(|_| same) else { return false };
+                pairs.into_iter().all(|(joint, own)| self.matches(equation, joint, own, scope, bound))
+            }
+            (
+                Term::Read { function, arguments },
+                Term::Read { function: own, arguments: given } | Term::Define { function: own, arguments: given },
+            ) => {
+                let declared = program.function(*own);
+                let Some((ABSTRACT, there)) = coupling.joint.of.get(function) else {
+                    return declared.element.is_some() && declared.name == model.function(*function).name;
+                };
+                let Some(pairs) = all(arguments, given).filter(|_| there == own) else { return false };
+                pairs.into_iter().zip(&declared.parameters).all(|((joint, own), domain)| match model.term(joint) {
+                    Term::Slot(slot) if equation.variables.contains(slot) => {
+                        // A variable stands for one argument, which lies in the domain.
+                        let text = match program.term(own) {
+                            Term::Slot(slot) => scope.get(slot).cloned(),
+                            _ => None,
+                        };
+                        let inside = self.inside(Of::Abstract, &[own], &[*domain], scope, "").is_ok();
+                        let Some(variable) = text.filter(|_| inside) else { return false };
+                        bound.entry(*slot).or_insert_with(|| variable.clone()).text == variable.text
+                    }
+                    _ => self.matches(equation, joint, own, scope, bound),
+                })
+            }
+            _ => false,
+        }
     }
 
     fn term(&mut self, of: Of, id: TermId, scope: &Scope) -> Written {
@@ -227,6 +192,11 @@ impl<'c> Translation<'c> {
     }
 
     fn term_here(&mut self, of: Of, id: TermId, scope: &Scope) -> Written {
+        if of == Of::Abstract
+            && let Some(written) = self.by_equation(id, scope)
+        {
+            return written;
+        }
         let program = self.program(of);
         match program.term(id) {
             Term::Constant(index) => self.literal(program, &program.constants[*index as usize]),
@@ -378,7 +348,7 @@ impl<'c> Translation<'c> {
             return self.call(of, *there, arguments, scope);
         }
         let name = &declared.name;
-        match self.known.get(&id).cloned() {
+        match self.known.functions.get(&id).cloned() {
             Some(Known::Same { function, everywhere }) => {
                 if !everywhere {
                     self.inside(of, arguments, &declared.parameters, scope, name)?;
@@ -487,10 +457,7 @@ impl<'c> Translation<'c> {
     }
 
     fn builtin(&mut self, of: Of, builtin: Builtin, arguments: &[TermId], scope: &Scope) -> Written {
-        let info = builtin.info();
-        let ordered = matches!(builtin, Builtin::Lt | Builtin::Le | Builtin::Gt | Builtin::Ge);
-        if info.effect != Effect::Pure || !(ordered || info.shows_order == ShowsOrder::No) || builtin == Builtin::Print
-        {
+        if !is_plain(builtin) {
             return Err(format!(
                 "its value depends on more than the state, or on an order of elements: {}",
                 builtin.name()
@@ -548,6 +515,13 @@ impl<'c> Translation<'c> {
         };
         Ok(Text::operand(format!("{name}({inside})")))
     }
+}
+
+/// Whether the value depends on its operands alone, and on no order of elements.
+fn is_plain(builtin: Builtin) -> bool {
+    let info = builtin.info();
+    let ordered = matches!(builtin, Builtin::Lt | Builtin::Le | Builtin::Gt | Builtin::Ge);
+    info.effect == Effect::Pure && (ordered || info.shows_order == ShowsOrder::No) && builtin != Builtin::Print
 }
 
 /// The name of a library function where it is called.

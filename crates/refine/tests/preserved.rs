@@ -101,6 +101,22 @@ fn a_function_may_be_a_term_of_the_other_machine() {
         mirrored("couple not concrete.hidden and (3 - concrete.n) mod 3 = abstract.n;", "invariant over n: n < 2"),
         "(3 - n) mod 3 < 2",
     );
+    // A term may be known though its functions are not.
+    let term = "couple (abstract.n = 0) = (concrete.n = 0);";
+    is(mirrored(term, "CTLSPEC ag(n = 0 implies not (n = 0) or n = 0)"), "ag(n = 0 implies (not (n = 0) or n = 0))");
+    not(mirrored(term, "invariant over n: n = 1 or n = 0"), "abstract.n, which the coupling does not determine");
+    not(mirrored(term, "invariant over n: n < 3"), "abstract.n, which the coupling does not determine");
+    let each =
+        "couple (forall $k in N with (abstract.f($k) and abstract.n = $k) = (concrete.f($k) and concrete.hidden));";
+    let found = preserved("invariant over f: (forall $j in N with not f($j))", ROUND, &format!("same n; {each}"));
+    not(found.form, "does not determine");
+    let each = "couple (forall $k in N with (not abstract.f($k)) = (not concrete.f($k) and not concrete.hidden));";
+    let found =
+        preserved("invariant over f: (forall $j in N with not f($j) or n = $j)", ROUND, &format!("same n; {each}"));
+    is(found.form, "(forall $x in N with (not f($x) and not hidden) or n = $x)");
+    let found =
+        preserved("invariant over f: (forall $j in N with not f(2) or n = $j)", ROUND, &format!("same n; {each}"));
+    not(found.form, "does not determine");
     // An inequation, or a part of a domain, determines nothing.
     let loose = "couple abstract.n <= 2 and concrete.n >= 0 and (abstract.n = 0 iff concrete.n = 0);";
     not(mirrored(loose, "invariant over n: n < 3"), "does not determine");
