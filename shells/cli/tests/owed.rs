@@ -181,3 +181,33 @@ fn nothing_is_proved_of_a_model_that_is_not_the_charts() {
         assert!(code != Some(0) && !text.contains("proved ("), "{text}");
     }
 }
+
+#[test]
+fn an_action_of_a_pattern_is_replaced_where_the_pattern_is_at_work() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let folder = folder.path();
+    let slowly = "pattern slowly \"Raise slowly\"\n\tcontrol height\n\tstate up \"Up\"\n\taction begin \"BEGIN\"\n\t\
+                  action finish \"FINISH\"\n\tenter -> begin -> up -> finish -> exit\nendpattern\n";
+    let at_work = CHART
+        .replace("action lift \"LIFT\" to refine by lifting", "instance lift of lifting \"LIFT\"")
+        .replace("action raise \"RAISE\"", "action raise \"RAISE\" to refine by slowly");
+    let chart = format!("{at_work}\n{slowly}");
+    prepare(folder, &chart, "skip", "skip", COUNT);
+    check(folder, &["--prove"], 1, &["`raise`, to refine by `slowly`: refuted, nothing matches step"]);
+    let model = fs::read_to_string(folder.join("Crane.asm")).expect("the model");
+    fs::write(folder.join("Crane.asm"), model.replace("rule r_finish = skip", &format!("rule r_finish = {COUNT}")))
+        .expect("it is written");
+    check(folder, &["--prove"], 0, &["`raise`, to refine by `slowly`: proved (", "observed pieces, phase, arm"]);
+}
+
+#[test]
+fn pictures_tell_what_is_named_from_what_is_open() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let folder = folder.path();
+    prepare(folder, CHART, "skip", "skip", "skip");
+    let (code, text) = said(folder, &["chart", "draw", "Crane.chart", "--machine", "crane", "-o", "crane.svg"]);
+    assert_eq!(code, Some(0), "{text}");
+    let picture = fs::read_to_string(folder.join("crane.svg")).expect("a picture");
+    let dashed = picture.matches(" refine\"").count();
+    assert_eq!((dashed, picture.matches("style=\"stroke-dasharray:14 3\"").count()), (2, 1), "{picture}");
+}
