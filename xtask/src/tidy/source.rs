@@ -24,7 +24,9 @@ const SOURCES: &[(&str, &[&str])] = &[
 fn comment_of(file: &File) -> Option<&'static [&'static str]> {
     let found = SOURCES.iter().find(|(ending, _)| file.path.ends_with(ending))?;
     // What a tool wrote, and texts that are data of a test.
-    let made = file.path.ends_with(".d.ts") || file.path.contains("/generated/");
+    let made = file.path.ends_with(".d.ts")
+        || file.path.contains("/generated/")
+        || file.path.starts_with("editors/tree-sitter-asmetal/src/");
     let data =
         ["/tests/data/", "/golden/", "/snapshots/", "/fixtures/"].iter().any(|folder| file.path.contains(folder));
     let ours = ["crates/", "shells/"].iter().any(|folder| file.path.starts_with(folder));

@@ -1,0 +1,98 @@
+; Colours of models, scenarios and charts. No node is matched twice: editors differ in whether the first pattern or the
+; last one counts. The class of a name is told by its spelling, as crates/syntax/src/lexer/word.rs does.
+
+(line_comment) @comment
+(block_comment) @comment
+
+[
+  "if" "then" "else" "elseif" "endif"
+  "switch" "case" "otherwise" "endswitch"
+] @keyword.conditional
+
+[
+  "par" "endpar" "seq" "endseq" "let" "endlet" "choose" "with" "do" "ifnone" "extend"
+  "iterate" "enditerate" "while" "whilerec" "forall" "exists" "exist" "unique"
+] @keyword
+
+(skip_rule) @keyword
+
+[
+  "check" "strict" "set" "step" "until" "exec" "pick" "begin" "end" "execblock"
+  "expect" "failure" "by" "inconsistent" "update" "error"
+] @keyword
+
+["in" "notin" "and" "or" "xor" "not" "implies" "iff" "mod"] @keyword.operator
+
+["import" "load"] @keyword.import
+
+[
+  "static" "dynamic" "derived" "monitored" "controlled" "shared" "out" "local"
+  "abstract" "basic" "default" "turbo" "macro" "main" "asyncr" "initial" "composite"
+] @keyword.modifier
+
+[
+  "asm" "module" "export" "signature" "definitions" "init" "agent" "function" "rule" "domain" "enum" "anydomain"
+  "subsetof" "invariant" "over" "scenario"
+  "CTLSPEC" "ctlspec" "LTLSPEC" "ltlspec" "INVAR" "invar"
+  "JUSTICE" "justice" "FAIRNESS" "fairness" "COMPASSION" "compassion"
+] @keyword
+
+[
+  "chart" "machine" "endmachine" "pattern" "endpattern" "control" "state" "endstate" "guard" "action" "instance" "of"
+  "to" "refine" "enter" "exit" "yes" "no" "sequence" "history" "entry" "abort" "layout" "endlayout" "at"
+  "system" "endsystem" "tick" "processors" "component" "endcomponent" "synchronous" "asynchronous" "period" "offset"
+  "deadline" "awaits" "read" "elaborate" "write" "as" "channel" "from" "swinging" "buffer" "master" "queue" "value"
+  "sensor" "actuator" "within"
+] @keyword
+
+["Prod" "Seq" "Powerset" "Bag" "Map" "Rule"] @type.builtin
+
+(boolean) @boolean
+(undef) @constant.builtin
+(number) @number
+(step_command (integer) @number)
+(step_until_command (integer) @number)
+(character) @character
+(string) @string
+(escape) @string.escape
+(path) @string.special.path
+
+(variable) @variable.parameter
+
+((name) @type (#match? @type "^[A-Z]($|[^A-Z]|[A-Z0-9_]*[a-z])"))
+((name) @constant (#match? @constant "^[A-Z][A-Z][A-Z0-9_]*$"))
+((name) @function (#match? @function "^r_."))
+((name) @property (#match? @property "^([a-qs-z]|r$|r[^_]|r_$)"))
+
+(machine_name name: (identifier) @module)
+(scenario_head name: (identifier) @module)
+(chart_head name: (identifier) @module)
+(initial_state name: (identifier) @label)
+(block name: (identifier) @label)
+(execblock_command (identifier) @label)
+(invariant name: (identifier) @label)
+(ctl_specification name: (identifier) @label)
+(ltl_specification name: (identifier) @label)
+(scenario_invariant name: (identifier) @label)
+(control_variable name: (identifier) @property)
+(control_state name: (identifier) @constant)
+(composite_state name: (identifier) @constant)
+(guard name: (identifier) @property)
+(action name: (identifier) @function)
+(entry_action name: (identifier) @function)
+(exit_action name: (identifier) @function)
+(abort_action name: (identifier) @function)
+(instance name: (identifier) @function)
+(instance of: (identifier) @type)
+(machine name: (identifier) @type)
+(pattern name: (identifier) @type)
+(layout name: (identifier) @type)
+(system name: (identifier) @type)
+(component name: (identifier) @type)
+(channel name: (identifier) @property)
+(device name: (identifier) @property)
+(quantity unit: (identifier) @type.builtin)
+
+[":=" "<-" "->" "=" "!=" "<" "<=" ">" ">=" "+" "-" "*" "/" "^"] @operator
+["(" ")" "[" "]" "{" "}"] @punctuation.bracket
+["," ":" ";" "." "|"] @punctuation.delimiter
