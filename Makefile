@@ -90,6 +90,7 @@ lint: $(TESTED)
 	$(CARGO) fmt --all --check
 	$(TESTED) fmt --check library examples bench/models cpp/systems
 	$(LINTED) python3 xtask/docs.py
+	python3 editors/kate/make.py --check
 
 unit: $(TESTED)
 	sh cpp/install.sh z3 cvc5 clang

@@ -274,12 +274,14 @@ pub struct Texts<'w, F> {
 
 impl<F: Files> Files for Texts<'_, F> {
     fn read(&mut self, path: &str) -> Result<SourceFile, Absent> {
-        let found = match self.open.get(&tidy(path)) {
+        // A text is found by the same paths whether it is being edited or on the disk.
+        let path = tidy(path);
+        let found = match self.open.get(&path) {
             Some((_, source)) => Ok(source.clone()),
-            None => self.files.read(path),
+            None => self.files.read(&path),
         };
         if let Some(reads) = self.reads {
-            reads.insert(path.to_string(), found.as_ref().ok().map(|source| Arc::clone(&source.text)));
+            reads.insert(path, found.as_ref().ok().map(|source| Arc::clone(&source.text)));
         }
         found
     }
@@ -313,7 +315,8 @@ pub fn imported(files: &mut impl Files, importer: &SourceFile, path: &str) -> Re
     let written = if complete { written } else { written + ".asm" };
     let folder = Path::new(&importer.name).parent().unwrap_or(Path::new(""));
     let beside = tidy(&folder.join(&written).to_string_lossy());
-    for place in [&beside, &written] {
+    // Both tidied alike: a folder on the way that is not there must not make a difference.
+    for place in [&beside, &tidy(&written)] {
         match files.read(place) {
             Ok(source) => return Ok(source),
             Err(Absent::Missing) => {}

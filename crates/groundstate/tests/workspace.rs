@@ -170,6 +170,18 @@ fn after_any_edits_it_says_what_a_fresh_one_says() {
 }
 
 #[test]
+fn an_import_leads_to_a_file_whether_it_is_being_edited_or_not() {
+    // Beside the model there is no such file; from the working folder it is named by way of a folder that is not there.
+    let lamp = LAMP.replace("import Parts", "import none../../parts/Parts");
+    let files = Memory::of(&[("lamps/Lamp.asm", &lamp), ("parts/Parts.asm", PARTS)]);
+    let mut workspace = Workspace::new(files);
+    let closed = lines(&workspace.check("lamps/Lamp.asm").expect("it is there"));
+    workspace.set_text("parts/Parts.asm", 1, PARTS).expect("the first");
+    let open = lines(&workspace.check("lamps/Lamp.asm").expect("it is there"));
+    assert_eq!(closed, open);
+}
+
+#[test]
 fn one_file_has_one_name() {
     for (path, expect) in [("a/b/../c.asm", "a/c.asm"), ("./c.asm", "c.asm"), ("../c.asm", "../c.asm")] {
         assert_eq!(tidy(path), expect);
