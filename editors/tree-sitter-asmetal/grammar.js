@@ -534,7 +534,7 @@ module.exports = grammar({
         "from",
         $._identifier,
         "to",
-        $._identifier,
+        several($._identifier),
         $.channel_kind,
       ),
     channel_kind: ($) =>
