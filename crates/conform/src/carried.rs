@@ -1,11 +1,12 @@
-//! Whether what a component got from a channel is what was decided for it, datum by datum.
+//! Whether what a component got from a channel is what was decided for it, datum by datum, and was as new as its readings say.
 //!
-//! In: the recorded events and decisions of all tasks. Out: the first datum that was got otherwise than it was decided. A writing takes
-//! what its task decided last, and gives it a number; a reading names the number, and what is got after it is that datum. Neither model
-//! nor machine is asked. INVARIANT: the events and decisions of a task are walked in the order in which it recorded them. A datum that
-//! was read before its writer's record of it has come waits for that; one that no machine decided is not compared.
+//! In: the recorded events and decisions of all tasks, and the names of the channels. Out: the first datum that was got otherwise than it
+//! was decided, or as new though it was not, or the other way around. A writing takes what its task decided last, and gives it a number; a
+//! reading names the number, and what is got after it is that datum. Neither model nor machine is asked. INVARIANT: the events and
+//! decisions of a task are walked in the order in which it recorded them. A datum that was read before its writer's record of it has come
+//! waits for that; what no machine decided is compared only in whether there was a datum, and a new one.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -14,6 +15,8 @@ use recording::{Decision, Kind, Recording, Track};
 /// What has been seen of the tasks.
 #[derive(Debug, Default)]
 pub(crate) struct Carried {
+    /// The names of the channels; all else that is got comes from sensors.
+    channels: BTreeSet<String>,
     walks: Vec<Walk>,
     /// What was decided for each datum, by channel and number; none if no machine did.
     written: BTreeMap<(Arc<str>, u64), Option<Vec<Decision>>>,
@@ -30,6 +33,10 @@ struct Walk {
     decided: BTreeMap<Arc<str>, Vec<Decision>>,
     /// The number of the datum that it has read last from each channel.
     read: BTreeMap<Arc<str>, u64>,
+    /// The channels whose last reading brought something new, and for messages: since the decision before.
+    fresh: BTreeSet<Arc<str>>,
+    /// The channels from which messages are taken.
+    queues: BTreeSet<Arc<str>>,
 }
 
 /// A datum that a task got.
@@ -41,7 +48,7 @@ struct Got {
     records: Range<usize>,
 }
 
-/// A datum that a task got otherwise than it was decided.
+/// A datum that a task got otherwise than it was decided or read.
 #[derive(Debug)]
 pub(crate) struct Unlike {
     /// The task's place among the tracks.
@@ -50,11 +57,27 @@ pub(crate) struct Unlike {
     pub(crate) number: u64,
     /// The records of what the task got.
     pub(crate) got: Vec<Decision>,
-    /// The records of what was decided; empty if there was no such datum.
-    pub(crate) decided: Vec<Decision>,
+    /// What it is unlike.
+    pub(crate) to: To,
+}
+
+/// What a datum that was got should have been.
+#[derive(Debug)]
+pub(crate) enum To {
+    /// As it was decided, by these records.
+    Decided(Vec<Decision>),
+    /// Not there: nothing had been read.
+    Nothing,
+    /// New, or not new.
+    Newness(bool),
 }
 
 impl Carried {
+    /// Nothing has been seen of the tasks, whose channels have these names.
+    pub(crate) fn new(channels: impl Iterator<Item = String>) -> Carried {
+        Carried { channels: channels.collect(), ..Carried::default() }
+    }
+
     /// Goes on as far as the recording is known.
     pub(crate) fn go_on(&mut self, recording: &Recording, more: bool) -> Option<Unlike> {
         // Most programs record no decisions.
@@ -62,41 +85,39 @@ impl Carried {
             return None;
         }
         self.walks.resize_with(recording.tracks.len(), Walk::default);
+        let mut found = None;
         for (index, track) in recording.tracks.iter().enumerate() {
             while self.walks[index].events < track.events.len() {
-                self.decide(index, track);
+                found = found.or(self.decide(index, track));
                 self.happen(index, track);
             }
             // Of what comes last a part may be missing.
             if !goes_on(recording, track, more) {
-                self.decide(index, track);
+                found = found.or(self.decide(index, track));
             }
         }
         let written = &self.written;
-        let mut found = None;
         self.got.retain(|got| {
             let track = &recording.tracks[got.track];
             let records = &track.decisions[got.records.clone()];
-            let none = Vec::new();
-            let decided = match (got.number, written.get(&(Arc::clone(&records[0].object), got.number))) {
-                (0, _) => &none,
-                (_, Some(Some(decided))) => decided,
-                (_, Some(None)) => return false,
-                (_, None) => return true,
+            let decided = match written.get(&(Arc::clone(&records[0].object), got.number)) {
+                Some(Some(decided)) => decided,
+                Some(None) => return false,
+                None => return true,
             };
             if found.is_none() && !same(records, decided) {
-                let (at, number) = (got.track, got.number);
-                let (got, decided) = (records.to_vec(), decided.clone());
-                found = Some(Unlike { track: at, number, got, decided });
+                let to = To::Decided(decided.clone());
+                found = Some(Unlike { track: got.track, number: got.number, got: records.to_vec(), to });
             }
             false
         });
         found
     }
 
-    /// Takes the decisions that come before the task's next event.
-    fn decide(&mut self, index: usize, track: &Track) {
+    /// Takes the decisions that come before the task's next event; the first datum that was not there, or not as new as it was said to be.
+    fn decide(&mut self, index: usize, track: &Track) -> Option<Unlike> {
         let walk = &mut self.walks[index];
+        let mut found = None;
         while let Some(first) = track.decisions.get(walk.decisions).filter(|one| one.events <= walk.events) {
             let from = walk.decisions;
             let same = |one: &&Decision| one.object == first.object && one.is_got == first.is_got;
@@ -105,10 +126,31 @@ impl Carried {
             let records = from..walk.decisions;
             if !first.is_got {
                 walk.decided.insert(Arc::clone(&first.object), track.decisions[records].to_vec());
-            } else if let Some(number) = walk.read.get(&first.object) {
-                self.got.push(Got { track: index, number: *number, records });
+                continue;
+            }
+            if !self.channels.contains(first.object.as_ref()) {
+                continue;
+            }
+            let number = walk.read.get(&first.object).copied().unwrap_or(0);
+            let is_new = walk.fresh.contains(&first.object);
+            let got = &track.decisions[records.clone()];
+            let to = match () {
+                () if number == 0 && got.iter().any(|one| one.known) => Some(To::Nothing),
+                () if got.iter().any(|one| one.fresh != is_new) => Some(To::Newness(is_new)),
+                () => None,
+            };
+            if let Some(to) = to {
+                found = found.or_else(|| Some(Unlike { track: index, number, got: got.to_vec(), to }));
+            }
+            // A message is new to one decision; a datum is until the next reading.
+            if walk.queues.contains(&first.object) {
+                walk.fresh.remove(&first.object);
+            }
+            if number != 0 {
+                self.got.push(Got { track: index, number, records });
             }
         }
+        found
     }
 
     /// Takes the task's next event.
@@ -122,8 +164,23 @@ impl Carried {
                 self.written.insert((Arc::clone(&event.object), event.number), decided);
             }
             // Without a new message the last one stays.
-            Kind::Takes if event.number == 0 => {}
-            Kind::Reads | Kind::Loads | Kind::Takes => _ = walk.read.insert(Arc::clone(&event.object), event.number),
+            Kind::Takes => {
+                walk.queues.insert(Arc::clone(&event.object));
+                if event.number != 0 {
+                    walk.read.insert(Arc::clone(&event.object), event.number);
+                    walk.fresh.insert(Arc::clone(&event.object));
+                }
+            }
+            Kind::Reads | Kind::Loads => {
+                let before = walk.read.insert(Arc::clone(&event.object), event.number);
+                if event.number != before.unwrap_or(0) {
+                    walk.fresh.insert(Arc::clone(&event.object));
+                } else {
+                    walk.fresh.remove(&event.object);
+                }
+            }
+            // A reading that was given up leaves the datum before, which is no longer new.
+            Kind::GivesUp => _ = walk.fresh.remove(&event.object),
             _ => {}
         }
     }
@@ -141,3 +198,6 @@ fn same(got: &[Decision], decided: &[Decision]) -> bool {
     };
     parts(got) == parts(decided)
 }
+
+#[cfg(test)]
+mod tests;

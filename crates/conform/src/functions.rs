@@ -13,7 +13,7 @@ use model::Basic;
 use program::{DomainId, DomainKind, FunctionId, FunctionKind, ProcedureId, Program};
 use recording::{Decision, Event, Kind, Recording};
 
-use crate::carried::{Carried, Unlike, goes_on};
+use crate::carried::{Carried, To, Unlike, goes_on};
 use crate::evidence::Parted;
 use crate::steps::Steps;
 use crate::vocabulary::Vocabulary;
@@ -88,7 +88,8 @@ impl Functions {
                 task.parts = [of(task, FunctionKind::Derived), of(task, FunctionKind::Controlled)];
             }
         }
-        Ok(Functions { machine, tasks, channels, agreed: 0, carried: Carried::default() })
+        let carried = Carried::new(channels.keys().cloned());
+        Ok(Functions { machine, tasks, channels, agreed: 0, carried })
     }
 
     /// How many decisions agree.
@@ -140,9 +141,11 @@ impl Functions {
         let name = &unlike.got[0].object;
         let table = program.find_function(&format!("{name}_value"), 1)?;
         let got = recorded(program, table, &unlike.got);
-        let reason = match &unlike.decided[..] {
-            [] => format!("got {name} = {} before there was a datum", got.show(program)),
-            decided => format!(
+        let reason = match &unlike.to {
+            To::Nothing => format!("got {name} = {} before there was a datum", got.show(program)),
+            To::Newness(true) => format!("got {name} as not new, and its reading brought a new one: {}", unlike.number),
+            To::Newness(false) => format!("got {name} as new, and its last reading brought no new one"),
+            To::Decided(decided) => format!(
                 "got {name} = {} as datum {}, which was decided as {}",
                 got.show(program),
                 unlike.number,

@@ -243,6 +243,27 @@ fn data_go_through_channels_and_decisions_are_held_to_their_machines() {
 }
 
 #[test]
+fn what_is_new_is_what_the_readings_say() {
+    let loaded = model();
+    let good = recorded(&loaded, 1);
+    let found = |by_order: bool, change: &dyn Fn(&mut Decision)| {
+        let mut wrong = good.clone();
+        wrong.tracks[1].decisions.iter_mut().for_each(change);
+        let Verdict::Parts(parted) = conformed(&loaded, wrong, by_order).verdict else { panic!("it is found") };
+        assert_eq!((parted.task.as_str(), parted.decides), ("control", true));
+        parted.reason.unwrap_or_default()
+    };
+    for by_order in [false, true] {
+        // A runtime that never tells of a new level; from that its machine decides nothing else than the program did.
+        let reason = found(by_order, &|one| match one.is_got {
+            true => one.fresh = false,
+            false => one.bits = 0,
+        });
+        assert!(reason.starts_with("got levels as not new, and its reading brought a new one: "), "{reason}");
+    }
+}
+
+#[test]
 fn tuples_are_replayed_by_their_parts() {
     let pair = "Prod(Integer, Boolean)";
     let loaded = model_of(
