@@ -177,6 +177,19 @@ fn a_question_that_says_nothing() {
     assert!(matches!(report(&one, &late, None).verdict, Verdict::Vacuous(Vacuous::NoInitialPair(_))));
     let total = "couple abstract.n >= 0 and concrete.n >= 0;";
     assert_eq!(report(&one, &one, Some(total)).verdict, Verdict::Vacuous(Vacuous::Total));
+    // Many states change nothing of that, whether or not the game meets all pairs.
+    let large = |last: u32, rule: &str| {
+        let signature = "domain L subsetof Integer controlled n: L";
+        machine(signature, &format!("domain L = {{0:{last}}}\nmain rule r_Main = {rule}"), "function n = 0")
+    };
+    let (any, round) = (large(7, "choose $n in L with true do n := $n"), large(899, "n := (n + 1) mod 900"));
+    assert_eq!(report(&any, &round, Some(total)).verdict, Verdict::Vacuous(Vacuous::Total));
+    let eight = large(7, "n := (n + 1) mod 8");
+    assert_eq!(report(&eight, &round, Some(total)).verdict, Verdict::Vacuous(Vacuous::Total));
+    assert_ne!(
+        report(&any, &round, Some("couple abstract.n = concrete.n mod 8;")).verdict,
+        Verdict::Vacuous(Vacuous::Total)
+    );
 }
 
 #[test]
