@@ -5,12 +5,12 @@
 //! and the rule of the elaboration's end makes the step there. So when it was decided does not matter, and the way in which events are
 //! compared neither. INVARIANT: the state of a component is that after its own decisions, and no other component's step changes it.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use machine::{Choice, Environment, Limits, Location, LocationRef, Machine, Show, TimeUnit, Value};
 use model::Basic;
-use program::{DomainId, DomainKind, FunctionId, FunctionKind, ProcedureId, Program};
+use program::{DomainId, DomainKind, FunctionId, FunctionKind, ProcedureId, Program, Rule, Runs, Term};
 use recording::{Decision, Event, Kind, Recording};
 
 use crate::carried::{Carried, To, Unlike, goes_on};
@@ -37,7 +37,7 @@ struct Task {
     /// The elaboration.
     phase: String,
     end: ProcedureId,
-    /// The channels from which its machine gets something, and those for which it decides.
+    /// The channels and sensors from which its machine gets something, and the channels and actuators for which it decides.
     parts: [Vec<String>; 2],
     /// What the first decision was made of: what was got, then what was decided.
     shape: Option<Vec<(bool, Arc<str>, u64)>>,
@@ -68,7 +68,8 @@ impl Functions {
                 }
                 if let Some((phase, end)) = steps.ends().iter().find_map(end) {
                     let (name, parts) = (component.name.clone(), [Vec::new(), Vec::new()]);
-                    tasks.push(Task { name, phase, end, parts, shape: None, cursor: 0, agreed: 0 });
+                    let (shape, cursor, agreed) = (None, 0, 0);
+                    tasks.push(Task { name, phase, end, parts, shape, cursor, agreed });
                 }
             }
             // What a component writes without a machine is an input of the model: the program says nothing of it.
@@ -85,7 +86,20 @@ impl Functions {
             };
             tasks.retain(|task| of(task, FunctionKind::Monitored).is_empty() && !given(task));
             for task in &mut tasks {
+                let [sensors, actuators] = devices(program, task.end);
                 task.parts = [of(task, FunctionKind::Derived), of(task, FunctionKind::Controlled)];
+                let is_told = |channel: &&String| {
+                    let mut letters = channel.chars();
+                    let first = letters.next().map(|first| first.to_uppercase().to_string()).unwrap_or_default();
+                    let name = format!("{}_isNew{first}{}", task.name, letters.as_str());
+                    program.find_function(&name, 0).is_some()
+                };
+                let told: Vec<String> = channels.keys().filter(is_told).cloned().collect();
+                for (parts, more) in task.parts.iter_mut().zip([[sensors, told].concat(), actuators]) {
+                    parts.extend(more);
+                    parts.sort();
+                    parts.dedup();
+                }
             }
         }
         let carried = Carried::new(channels.keys().cloned());
@@ -106,8 +120,11 @@ impl Functions {
             let more = goes_on(recording, track, more);
             while let Some(group) = next(&track.decisions[self.tasks[index].cursor..], more) {
                 let decisions = &track.decisions[self.tasks[index].cursor..][..group];
-                let reason = self.unlike(index, decisions).or_else(|| self.decide(index, decisions));
-                if let Some(reason) = reason {
+                let malformed = self.unlike(index, decisions).or_else(|| self.outside(index, decisions));
+                if let Some(reason) = malformed {
+                    return Some(self.parted(index, recording, decisions, reason));
+                }
+                if let Some(reason) = self.decide(index, decisions) {
                     return Some(self.parted(index, recording, decisions, reason));
                 }
                 self.tasks[index].cursor += group;
@@ -207,6 +224,40 @@ impl Functions {
         all.map(|(location, value)| (location.show(program).to_string(), value.show(program).to_string())).collect()
     }
 
+    /// The first of these records that is no value of its domain, in words.
+    fn outside(&mut self, index: usize, decisions: &[Decision]) -> Option<String> {
+        let program = Arc::clone(self.machine.program());
+        for decision in decisions.iter().filter(|one| one.known) {
+            let name = &decision.object;
+            let own = || program.find_function(&format!("{}_{name}", self.tasks[index].name), 0);
+            let table = program.find_function(&format!("{name}_value"), 1);
+            let Some(function) = table.or_else(own).or_else(|| program.find_function(name, 0)) else { continue };
+            let mut parts = Vec::new();
+            leaves(&program, program.function(function).codomain, &mut parts);
+            // That a part is missing, or one too many, is found where it is compared.
+            let Some(domain) = usize::try_from(decision.part).ok().and_then(|part| parts.get(part)).copied() else {
+                continue;
+            };
+            let base = program.base_domain(domain);
+            let is_value = match &program.domain(base).kind {
+                DomainKind::Enum { literals } => decision.bits < literals.len() as u64,
+                DomainKind::Basic(Basic::Boolean) => decision.bits < 2,
+                DomainKind::Basic(Basic::Integer | Basic::Natural) => true,
+                // A real number that is none is undef.
+                _ => continue,
+            };
+            let is_value = is_value
+                && value(&program, domain, &mut std::iter::once(decision.bits))
+                    .is_some_and(|value| self.machine.contains(domain, &value));
+            if !is_value {
+                let did = if decision.is_got { "got" } else { "decided" };
+                let (bits, domain) = (decision.bits as i64, &program.domain(domain).name);
+                return Some(format!("{did} {name} = {bits}, which is no value of {domain}"));
+            }
+        }
+        None
+    }
+
     /// Makes a decision; why it is another one.
     fn decide(&mut self, index: usize, decisions: &[Decision]) -> Option<String> {
         let program = Arc::clone(self.machine.program());
@@ -251,7 +302,7 @@ impl Functions {
             let sensor = function(name, 0)?;
             let value = recorded(program, sensor, values);
             let text = format!("{name} = {}", value.show(program));
-            got.0.push((sensor, value));
+            got.said.push((sensor, value));
             return Ok(text);
         };
         let element = function(name, 0)?;
@@ -277,6 +328,48 @@ impl Functions {
     fn set(&mut self, location: Location, value: Value) -> Result<(), String> {
         self.machine.set(&location, value).map_err(|fault| fault.show(self.machine.program()).to_string())
     }
+}
+
+/// The sensors that the end of an elaboration reads, and the actuators that it sets, by calls and definitions too. What a machine only
+/// declares, and neither reads nor sets, is not among them.
+fn devices(program: &Program, end: ProcedureId) -> [Vec<String>; 2] {
+    let (mut read, mut set) = (BTreeSet::new(), BTreeSet::new());
+    let (mut procedures, mut entered) = (vec![end], BTreeSet::new());
+    let (mut rules, mut terms, mut defined) = (Vec::new(), Vec::new(), BTreeSet::new());
+    while let Some(procedure) = procedures.pop() {
+        if !entered.insert(procedure.0) {
+            continue;
+        }
+        rules.push(program.procedure(procedure).body);
+        while let Some(rule) = rules.pop() {
+            if let Rule::Update { function, .. } | Rule::Return { function, .. } = program.rule(rule) {
+                set.insert(*function);
+            }
+            if let Runs::Procedure(called) = program.rule(rule).runs() {
+                procedures.push(called);
+            }
+            program.each_child_of_rule(rule, &mut |child| rules.push(child));
+            program.each_term_of_rule(rule, &mut |term| terms.push(term));
+        }
+        while let Some(term) = terms.pop() {
+            if let Term::Read { function, .. } | Term::Define { function, .. } = program.term(term) {
+                read.insert(*function);
+                if defined.insert(*function) {
+                    terms.extend(program.function(*function).definition.as_ref().map(|definition| definition.body));
+                }
+            }
+            program.each_child_of_term(term, &mut |child| terms.push(child));
+        }
+    }
+    let of = |found: BTreeSet<FunctionId>, kind: FunctionKind| {
+        let function = |id: FunctionId| program.function(id);
+        let is_device = |id: &FunctionId| {
+            let function = function(*id);
+            function.kind == kind && function.parameters.is_empty() && !function.library
+        };
+        found.into_iter().filter(is_device).map(|id| function(id).name.clone()).collect()
+    };
+    [of(read, FunctionKind::Monitored), of(set, FunctionKind::Out)]
 }
 
 /// The function of what a task computes for a channel that is drawn to several readers: `TASK_DRAWN`, where the channel to one of them is
@@ -321,6 +414,14 @@ fn recorded(program: &Program, function: FunctionId, parts: &[Decision]) -> Valu
     if in_order && bits.next().is_none() { value.unwrap_or(Value::Undef) } else { Value::Undef }
 }
 
+/// The domains of the parts of a value that are no tuples, in order.
+fn leaves(program: &Program, domain: DomainId, found: &mut Vec<DomainId>) {
+    match &program.domain(program.base_domain(domain)).kind {
+        DomainKind::Prod(parts) => parts.iter().for_each(|part| leaves(program, *part, found)),
+        _ => found.push(domain),
+    }
+}
+
 /// The value of a domain with these bits.
 fn value(program: &Program, domain: DomainId, bits: &mut impl Iterator<Item = u64>) -> Option<Value> {
     let domain = match &program.domain(domain).kind {
@@ -345,11 +446,13 @@ fn value(program: &Program, domain: DomainId, bits: &mut impl Iterator<Item = u6
 
 /// What sensors said; of several candidates the first one, as in the program.
 #[derive(Default)]
-struct Got(Vec<(FunctionId, Value)>);
+struct Got {
+    said: Vec<(FunctionId, Value)>,
+}
 
 impl Environment for Got {
     fn monitored(&mut self, _: &Program, location: LocationRef<'_>, _: DomainId) -> Result<Value, String> {
-        let found = self.0.iter().find(|(function, _)| *function == location.function);
+        let found = self.said.iter().find(|(function, _)| *function == location.function);
         Ok(found.map_or(Value::Undef, |(_, value)| value.clone()))
     }
 

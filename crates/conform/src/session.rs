@@ -115,7 +115,12 @@ impl Session {
         }
         let mut machine = Machine::new(Arc::new(program.clone()), limits.clone());
         machine.start(&mut machine::Closed).map_err(|fault| fault.show(&program).to_string())?;
-        Vocabulary::new(&program, &machine)?;
+        let vocabulary = Vocabulary::new(&program, &machine)?;
+        let is_none = |name: &&String| vocabulary.phases_on(&machine, name).is_empty();
+        if let Some(name) = head.wait_free.iter().find(is_none) {
+            let words = format!("the model has no channel {name}, which was generated wait-free");
+            return Err(words.into());
+        }
         let steps = match Steps::add(&head.wait_free, &mut sources, &mut model, &mut program) {
             Ok(steps) => steps,
             Err(faults) => return Err(Refusal::Model(sources, faults)),

@@ -82,7 +82,7 @@ impl Environment for Rising {
     }
 
     fn choose(&mut self, _: &Program, _: &Choice<'_>) -> Result<usize, String> {
-        Err("nothing is to be chosen".to_string())
+        Ok(0)
     }
 
     fn time(&mut self, _: TimeUnit) -> Result<i64, String> {
@@ -260,6 +260,50 @@ fn what_is_new_is_what_the_readings_say() {
             false => one.bits = 0,
         });
         assert!(reason.starts_with("got levels as not new, and its reading brought a new one: "), "{reason}");
+    }
+}
+
+#[test]
+fn what_is_left_out_of_all_decisions_is_missed() {
+    let loaded = model();
+    let good = recorded(&loaded, 1);
+    let found = |track: usize, object: &str| {
+        let mut less = good.clone();
+        less.tracks[track].decisions.retain(|one| one.object.as_ref() != object);
+        // Half a decision is one all the same, if something was decided.
+        let Verdict::Parts(parted) = conformed(&loaded, less, false).verdict else { panic!("it is found") };
+        parted.reason.unwrap_or_default()
+    };
+    assert_eq!(found(0, "level"), "decided, and it is not recorded what it got from level");
+    assert_eq!(found(1, "levels"), "decided, and it is not recorded what it got from levels");
+    // Two actuators, so that the log of one has decisions without the other.
+    let loaded = model_of(
+        &TANK
+            .replace("actuator valve : Boolean", "actuator valve : Boolean\n\tactuator lamp : Boolean")
+            .replace("control -> valve", "control -> valve\n\tcontrol -> lamp"),
+        GAUGE,
+        &CONTROL
+            .replace("out valve: Boolean", "out valve: Boolean\n\tout lamp: Boolean")
+            .replace("if isNewLevels and", "par lamp := false if isNewLevels and")
+            .replace("valve := false endif", "valve := false endif endpar")
+            .replace("function valve = false", "function valve = false\n\tfunction lamp = false"),
+    );
+    let Verdict::Parts(parted) = conformed(&loaded, recorded(&loaded, 1), false).verdict else { panic!("it is found") };
+    assert_eq!(parted.reason.as_deref(), Some("decided, and it is not recorded what for lamp"));
+}
+
+#[test]
+fn a_value_outside_its_domain_is_a_difference() {
+    let loaded = model();
+    let good = recorded(&loaded, 1);
+    for (known, bits) in [(true, 2), (true, 77)] {
+        let mut wrong = good.clone();
+        for one in wrong.tracks[1].decisions.iter_mut().filter(|one| !one.is_got) {
+            (one.known, one.bits) = (known, if one.bits == 1 { bits } else { 0 });
+        }
+        let Verdict::Parts(parted) = conformed(&loaded, wrong, false).verdict else { panic!("it is found") };
+        let reason = parted.reason.unwrap_or_default();
+        assert_eq!(reason, format!("decided valve = {bits}, which is no value of Boolean"));
     }
 }
 
