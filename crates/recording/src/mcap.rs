@@ -307,9 +307,11 @@ impl Reader {
                 recording.stopped_ns = stopped_ns;
                 if name == "end" {
                     recording.ended = true;
+                    // The program counts what it lost; what is told of the tasks' numbers does not undo that.
+                    let lost = !matches!(text("lost"), "" | "0");
                     for track in &mut recording.tracks {
                         let all: usize = text(&format!("events {}", track.task)).parse().unwrap_or(usize::MAX);
-                        track.lost |= all != track.events.len() + track.decisions.len();
+                        track.lost |= lost || all != track.events.len() + track.decisions.len();
                     }
                 }
             }

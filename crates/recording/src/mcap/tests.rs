@@ -150,6 +150,15 @@ fn a_gap_in_the_order_ends_a_track() {
 }
 
 #[test]
+fn what_the_program_lost_is_lost() {
+    for (lost, is_whole) in [("0", true), ("5", false), ("?", false)] {
+        let end = about("end", &[("stopped_ns", "7"), ("events task", "1"), ("lost", lost)]);
+        let bytes = ended([head(), channel(1, "/task"), event(1, 0, 5), end].concat());
+        assert_eq!(Recording::read(&bytes).expect("it can be read").is_whole(), is_whole, "{lost}");
+    }
+}
+
+#[test]
 fn time_goes_on_from_the_beginning() {
     let check = |times: [i64; 2], expect: &str| {
         let events = [event(0, 0, times[0]), event(0, 1, times[1])].concat();
