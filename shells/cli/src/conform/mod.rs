@@ -8,7 +8,7 @@ mod follow;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use ::conform::{Malformed, Parted, Reader, Recording, Refusal, Verdict, diagnose_parted};
+use ::conform::{Event, Kind, Malformed, Parted, Reader, Recording, Refusal, Verdict, diagnose_parted};
 use clap::Args;
 use groundstate::Loaded;
 use groundstate::job::{self, Cancel, ConformRequest, Conformed, Events, NoTail, NotConformed};
@@ -116,7 +116,8 @@ fn tell(shell: &mut Shell, conformed: &Conformed) -> Result<Exit, Failure> {
             let decisions = decisions
                 .map(|decisions| format!("\n{decisions} decisions are those of the components' machines"))
                 .unwrap_or_default();
-            format!("conforms {way}: {events} events, {steps} steps of the model{after}{decisions}")
+            let missed = missed(recording);
+            format!("conforms {way}: {events} events, {steps} steps of the model{after}{decisions}{missed}")
         }
         Verdict::Unknown { events, reason } => {
             format!("not known, {way}: {reason}; {events} events agree before")
@@ -136,6 +137,20 @@ fn tell(shell: &mut Shell, conformed: &Conformed) -> Result<Exit, Failure> {
         Verdict::Unknown { .. } => Exit::Unknown,
         Verdict::Parts(_) => Exit::Model,
     })
+}
+
+/// The deadlines that were missed before the tasks were asked to stop: a run that has its events in order may have missed all of them.
+fn missed(recording: &Recording) -> String {
+    let until_ns = recording.stopped_ns.unwrap_or(i64::MAX);
+    let misses = |event: &&Event| event.kind == Kind::Misses && event.time_ns <= until_ns;
+    let tasks = recording.tracks.iter().map(|track| (&track.task, track.events.iter().filter(misses).count()));
+    let tasks: Vec<_> = tasks.filter(|(_, count)| *count > 0).collect();
+    let each = tasks.iter().map(|(task, count)| format!("{task} {count}")).collect::<Vec<_>>().join(", ");
+    match tasks.iter().map(|(_, count)| count).sum::<usize>() {
+        0 => String::new(),
+        1 => format!("\n1 deadline was missed ({each}); whether the model forbids that is not looked at"),
+        more => format!("\n{more} deadlines were missed ({each}); whether the model forbids that is not looked at"),
+    }
 }
 
 fn ms(ns: i64) -> String {
