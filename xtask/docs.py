@@ -40,14 +40,17 @@ compiler = subprocess.run(["rustc", "-vV"], check=True, stdout=subprocess.PIPE, 
 host = next(line.split()[1] for line in compiler.splitlines() if line.startswith("host: "))
 metadata = json.loads(cargo("metadata", "--locked", "--filter-platform", host, "--format-version=1"))
 folder = os.path.join(metadata["target_directory"], "debug", "deps")
-libraries, scripts = {}, {}
+libraries, scripts, features = {}, {}, {}
 for line in cargo("test", "--workspace", "--locked", "--no-run", "--message-format=json", "--quiet").splitlines():
     message = json.loads(line)
     if message["reason"] == "build-script-executed":
         scripts[message["package_id"]] = message["out_dir"]
     if message["reason"] == "compiler-artifact" and not message["profile"]["test"]:
         built = [file for file in message["filenames"] if file.endswith((".rlib", ".so", ".dylib"))]
-        libraries.setdefault(message["package_id"], []).extend(built)
+        # A build script may have a package with fewer features, in a library of its own.
+        if built and len(message["features"]) >= features.get(message["package_id"], 0):
+            features[message["package_id"]] = len(message["features"])
+            libraries[message["package_id"]] = built
 
 packages = {package["id"]: package for package in metadata["packages"]}
 nodes = {node["id"]: node for node in metadata["resolve"]["nodes"]}
