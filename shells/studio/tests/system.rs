@@ -32,7 +32,10 @@ fn properties_have_their_places_and_are_set() {
     let act = &system["parts"]["act"];
     assert_eq!((&act["awaits"]["text"], &act["phases"][0]["name"]["text"]), (&json!("seen"), &json!("take")));
     let seen = &system["parts"]["seen"];
-    assert_eq!((&seen["made"], &seen["size"]["text"], &seen["to"]), (&json!("queue"), &json!("4"), &json!("act")));
+    assert_eq!(
+        (&seen["made"], &seen["size"]["text"], &seen["readers"]),
+        (&json!("queue"), &json!("4"), &json!(["act"]))
+    );
     assert_eq!(system["ages"][0]["limit"]["text"], "50 ms");
     let mut set = |operation: Value| {
         let params = json!({ "textDocument": document, "drawing": "axis", "operation": operation });
