@@ -33,9 +33,7 @@ mod ways;
 mod write;
 pub mod xml;
 
-pub use build::{
-    Built, Extent, Known, Lengths, Unknown, build, kept, library, sliced, unbuilt, unverified, verifiable, verified,
-};
+pub use build::{Built, Known, Lengths, Unknown, build, kept, library, unbuilt, unverified, verifiable, verified};
 pub use chart::{
     Arrow, Chart, Composite, Control, End, Layout, Machine, Parameter, Pattern, Refinement, Shape, ShapeId, ShapeKind,
     WORDS,

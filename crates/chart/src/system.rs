@@ -83,6 +83,25 @@ pub enum Timing {
     },
 }
 
+impl System {
+    /// The channels, those together that are drawn as one.
+    pub fn drawn_channels(&self) -> impl Iterator<Item = &[Channel]> {
+        // One declaration makes them, one after the other.
+        self.channels.chunk_by(|one, next| one.drawn == next.drawn)
+    }
+
+    /// Of channels with these indices, one of each that is drawn.
+    pub fn one_of_each_drawn(&self, channels: impl IntoIterator<Item = usize>) -> Vec<usize> {
+        let mut found: Vec<usize> = Vec::new();
+        for channel in channels {
+            if !found.iter().any(|first| self.channels[*first].drawn == self.channels[channel].drawn) {
+                found.push(channel);
+            }
+        }
+        found
+    }
+}
+
 impl Timing {
     /// The period in ticks; `None` for an asynchronous component.
     pub fn period(self) -> Option<u64> {

@@ -89,7 +89,10 @@ impl Functions {
                 let [sensors, actuators] = devices(program, task.end);
                 task.parts = [of(task, FunctionKind::Derived), of(task, FunctionKind::Controlled)];
                 let is_told = |channel: &&String| {
-                    let mut letters = channel.chars();
+                    // The machine knows a channel to several readers by the name that is drawn.
+                    let own = channel.strip_suffix(&task.name).and_then(|rest| rest.strip_suffix('_'));
+                    let own = own.filter(|drawn| !channels.contains_key(*drawn)).unwrap_or(channel);
+                    let mut letters = own.chars();
                     let first = letters.next().map(|first| first.to_uppercase().to_string()).unwrap_or_default();
                     let name = format!("{}_isNew{first}{}", task.name, letters.as_str());
                     program.find_function(&name, 0).is_some()

@@ -19,20 +19,14 @@ pub fn of_system(system: &System, layout: Option<&Layout>) -> Scene {
     for component in &system.components {
         scene.nodes.push(node(&component.name, Figure::Component, &component.text, about(component, system)));
     }
-    let first = |index: usize| {
-        let is_drawn = system.channels[..index].iter().any(|other| other.drawn == system.channels[index].drawn);
-        !is_drawn
-    };
-    for (_, channel) in system.channels.iter().enumerate().filter(|(index, _)| first(*index)) {
+    for channels in system.drawn_channels() {
+        let channel = &channels[0];
         let mut small: Vec<Detail> = channel.message.iter().map(|message| plain(&message.text)).collect();
         small.push(plain(&words::channel(channel.kind)));
-        let drawn = || system.channels.iter().filter(|other| other.drawn == channel.drawn);
-        if drawn().count() > 1 {
+        if channels.len() > 1 {
             small.push(plain("one for each reader"));
         }
-        for master in words::masters(system, drawn()) {
-            small.push(plain(&master));
-        }
+        small.extend(words::masters(system, channels).iter().map(|master| plain(master)));
         scene.nodes.push(node(&channel.drawn, Figure::Channel, &channel.drawn, small));
     }
     for device in devices(false) {
@@ -40,10 +34,10 @@ pub fn of_system(system: &System, layout: Option<&Layout>) -> Scene {
     }
     let place = |name: &str| scene.nodes.iter().position(|node| node.id == name);
     let component = |index: usize| place(&system.components[index].name);
-    let ways = system.channels.iter().enumerate().flat_map(|(index, channel)| {
-        let middle = place(&channel.drawn);
-        let written = first(index).then_some((component(channel.from), middle));
-        written.into_iter().chain([(middle, component(channel.to))])
+    let ways = system.drawn_channels().flat_map(|channels| {
+        let middle = place(&channels[0].drawn);
+        let read = channels.iter().map(move |channel| (middle, component(channel.to)));
+        std::iter::once((component(channels[0].from), middle)).chain(read)
     });
     let links = system.connections.iter().map(|(from, to)| (place(from), place(to)));
     let edges = ways.chain(links).filter_map(|(from, to)| Some(Edge { from: from?, branch: None, to: to? })).collect();

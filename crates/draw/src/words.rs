@@ -97,9 +97,10 @@ pub fn channel(kind: ChannelKind) -> String {
 }
 
 /// Who updates the indexes of a channel that is drawn as one: nobody, one for all its readers, or one for each.
-pub fn masters<'s>(system: &'s System, drawn: impl Iterator<Item = &'s Channel>) -> Vec<String> {
+pub fn masters(system: &System, drawn: &[Channel]) -> Vec<String> {
     let text = |component: usize| &system.components[component].text;
     let masters: Vec<(usize, usize)> = drawn
+        .iter()
         .filter_map(|channel| match channel.kind {
             ChannelKind::Buffer { master, .. } => Some((master, channel.to)),
             ChannelKind::Queue { .. } | ChannelKind::Shared => None,

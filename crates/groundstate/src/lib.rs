@@ -37,7 +37,6 @@ use syntax::ast::AstNode;
 use syntax::{Diagnostic, Severity, SourceFile, Sources, Span};
 
 pub use build::{BuiltChart, Located, build_chart};
-pub use chart::Extent;
 pub use check_coupling::check_coupling;
 pub use check_specification::check_specification;
 pub use check_verification::check_verification;

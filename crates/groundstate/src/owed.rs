@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use chart::{Chart, Obligation, Observed, obligations};
 use model::{FunctionKind, Loader};
-use program::{Program, Rule, RuleId};
+use program::{Program, Rule, RuleId, Runs};
 use syntax::SourceFile;
 
 use crate::{Loaded, build_chart, has_errors, load};
@@ -88,18 +88,16 @@ fn written(program: &Arc<Program>) -> Vec<Observed> {
             }
         }
         let Some(id) = open.pop() else { break };
-        match program.rule(id) {
-            Rule::Update { function, .. } => found[function.0 as usize] = true,
-            Rule::Return { function, procedure, .. } => {
-                found[function.0 as usize] = true;
-                procedures.push(*procedure);
-            }
-            Rule::Call { procedure, .. } | Rule::TurboCall { procedure, .. } => procedures.push(*procedure),
+        if let Rule::Update { function, .. } | Rule::Return { function, .. } = program.rule(id) {
+            found[function.0 as usize] = true;
+        }
+        match program.rule(id).runs() {
+            Runs::Nothing => {}
+            Runs::Procedure(procedure) => procedures.push(procedure),
             // Which rule it is depends on the state: all may be.
-            Rule::RunValue { .. } | Rule::RunAgent { .. } => {
+            Runs::Value { .. } | Runs::Agent => {
                 procedures.extend((0..program.procedures.len() as u32).map(program::ProcedureId));
             }
-            _ => {}
         }
         program.each_child_of_rule(id, &mut |child| open.push(child));
     }

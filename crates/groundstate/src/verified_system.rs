@@ -2,14 +2,14 @@
 //!
 //! In: a chart's text and a [`Loader`]. Out: two loaded models: the verified one, which is made of the chart alone, and the ground
 //! model that `chart build` makes, which is what the verdicts are about. INVARIANT: both use the same modules of the pattern library,
-//! those that the chart imports; and nothing of what a user's rules compute is part of either, nor of what machines decide unless data
-//! are asked for, so that no property can speak of what is not computed.
+//! those that the chart imports; and nothing of what a user's rules compute is part of either, nor of what machines decide on which
+//! nothing rests that is asked about, so that no property can speak of what is not computed.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 use std::sync::Arc;
 
-use chart::{Chart, ComponentMachine, Extent, Known, Lengths};
+use chart::{Chart, ComponentMachine, Known, Lengths};
 use conform::Events;
 use machine::{Choice, Closed, Environment, Limits, Location, LocationRef, Show, TimeUnit, Value};
 use model::Loader;
@@ -25,9 +25,11 @@ use crate::{Loaded, has_errors, load, patterns};
 #[derive(Debug)]
 pub struct VerifiedSystem {
     /// The chart.
-    pub whole: Chart,
-    /// The chart with the machines that are a part of what is verified, if any are.
-    chart: Chart,
+    pub chart: Chart,
+    /// The part of it that is verified.
+    part: Chart,
+    /// The functions of machines, sensors and actuators that a property may speak of.
+    pub data: Vec<String>,
     /// The model to search.
     pub loaded: Loaded,
     /// The same, with elaborations of asynchronous components that take any time. What holds of it holds of `loaded`, and it has far
@@ -37,8 +39,6 @@ pub struct VerifiedSystem {
     pub warnings: Located,
     /// The ground model of the same chart, without what elaborations compute; with data, with what machines decide.
     pub ground: Loaded,
-    /// Whether what machines decide is a part of it.
-    pub extent: Extent,
 }
 
 const VERIFICATION: &str = "verification/";
@@ -67,15 +67,13 @@ pub fn verified_system(
     if has_errors(&unverified) {
         return Err(vec![(sources, unverified)]);
     }
-    let sliced = chart::sliced(&chart, speaks_of);
-    let extent = if sliced.is_some() { Extent::WithData } else { Extent::Communication };
-    let (chart, whole) = (sliced.unwrap_or_else(|| chart.clone()), chart);
-    let text = |lengths| chart::verified(&chart, libraries, lengths, extent);
-    let (Some(library), Some(drawn), Some(any)) = (chart::library(&chart), text(Lengths::AsDrawn), text(Lengths::Any))
+    let part = chart::verifiable(&chart, speaks_of);
+    let text = |lengths| chart::verified(&part, libraries, lengths);
+    let (Some(library), Some(drawn), Some(any)) = (chart::library(&part), text(Lengths::AsDrawn), text(Lengths::Any))
     else {
         unreachable!("what has no system or no library was reported above")
     };
-    let ground = match chart::build(&chart::verifiable(&chart, extent), &known, None) {
+    let ground = match chart::build(&part, &known, None) {
         Ok(built) => built.text,
         Err(faults) => return Err(vec![(Sources::default(), faults)]),
     };
@@ -88,7 +86,8 @@ pub fn verified_system(
     let general = if any == drawn { None } else { Some(load_as(name.clone(), any)?) };
     let loaded = load_as(name, drawn)?;
     let ground = load_as(format!("{folder}{}.asm", chart.name), ground)?;
-    Ok(Box::new(VerifiedSystem { whole, chart, loaded, general, warnings: (sources, diagnostics), ground, extent }))
+    let data = chart::kept(&part);
+    Ok(Box::new(VerifiedSystem { chart, part, data, loaded, general, warnings: (sources, diagnostics), ground }))
 }
 
 /// The libraries of a verified model: the verification library is the built-in one, the pattern library that of the chart.
@@ -205,23 +204,12 @@ pub struct Told {
 }
 
 impl VerifiedSystem {
-    /// The components whose machines are a part of what is verified, and those whose machines are not.
+    /// The components' machines that are a part of what is verified, and those that are not.
     pub fn machines(&self) -> (Vec<&ComponentMachine>, Vec<&ComponentMachine>) {
-        let computing = |chart: &'_ Chart| -> Vec<usize> {
-            let system = chart.system.iter().flat_map(|system| &system.computing.machines);
-            system.map(|machine| machine.component).collect()
-        };
-        let within = if self.extent == Extent::WithData { computing(&self.chart) } else { Vec::new() };
-        let all = self.whole.system.iter().flat_map(|system| &system.computing.machines);
+        let within = self.part.system.iter().flat_map(|system| &system.computing.machines);
+        let within: Vec<usize> = within.map(|machine| machine.component).collect();
+        let all = self.chart.system.iter().flat_map(|system| &system.computing.machines);
         all.partition(|machine| within.contains(&machine.component))
-    }
-
-    /// The functions of machines, sensors and actuators that a property may speak of.
-    pub fn data(&self) -> Vec<String> {
-        match self.extent {
-            Extent::WithData => chart::kept(&self.chart),
-            Extent::Communication => Vec::new(),
-        }
     }
 
     /// Makes the run of a counterexample on the ground model. `asked` is the verified model with the properties that were asked about.
@@ -240,18 +228,17 @@ impl VerifiedSystem {
         let mut given = Given { program: asked.0, inputs: &trace.start.inputs, asked: BTreeMap::new() };
         let mut run = Events::start(&ground.program, limits, &mut given)?;
         let mut events = Vec::new();
-        let data = self.data();
         for (tick, step) in (0..).zip(&trace.steps) {
             given.inputs = &step.inputs;
             given.asked.clear();
             match (run.step(&mut given), &step.fault) {
                 (Ok(made), None) => {
                     let mut tell = |task, words, is_data| events.push(Told { tick, task, words, is_data });
-                    for (name, value) in given.asked.iter().filter(|(name, _)| data.contains(name)) {
+                    for (name, value) in given.asked.iter().filter(|(name, _)| self.data.contains(name)) {
                         tell(INPUT.to_string(), format!("{name} = {value}"), true);
                     }
                     made.into_iter().for_each(|(task, event)| tell(task, event.words(), false));
-                    self.decided(&mut run, &data).for_each(|(task, update)| tell(task, update, true));
+                    self.decided(&mut run).for_each(|(task, update)| tell(task, update, true));
                 }
                 (Err(fault), Some(_)) => return Ok(GroundRun { events, violates: None, fault: Some(fault) }),
                 (Err(fault), None) => return Err(fault),
@@ -269,12 +256,12 @@ impl VerifiedSystem {
     }
 
     /// What the machines decided in the last step of a run of the ground model: the component, the update.
-    fn decided<'r>(&'r self, run: &mut Events, data: &[String]) -> impl Iterator<Item = (String, String)> + use<'r> {
+    fn decided<'r>(&'r self, run: &mut Events) -> impl Iterator<Item = (String, String)> + use<'r> {
         let machine = run.machine();
         let program = Arc::clone(machine.program());
         let changes = machine.changes().into_iter().filter(|change| {
             let function = &program.function(change.location.function);
-            change.before != change.after && data.contains(&function.name)
+            change.before != change.after && self.data.contains(&function.name)
         });
         let updates: Vec<(String, String)> = changes
             .map(|change| {
@@ -282,7 +269,7 @@ impl VerifiedSystem {
                 (name, format!("{} := {}", change.location.show(&program), change.after.show(&program)))
             })
             .collect();
-        let components = self.whole.system.iter().flat_map(|system| &system.components).collect::<Vec<_>>();
+        let components = self.chart.system.iter().flat_map(|system| &system.components).collect::<Vec<_>>();
         updates.into_iter().map(move |(name, update)| {
             let is_own = |component: &&&chart::system::Component| {
                 name.strip_prefix(&component.name).is_some_and(|rest| rest.starts_with('_'))
@@ -303,7 +290,7 @@ impl VerifiedSystem {
         trace: &Trace,
     ) -> Result<String, String> {
         let GroundRun { events, violates, fault } = self.ground_run(limits, asked, subject, trace)?;
-        let tick_ns = self.whole.system.as_ref().map_or(1, |system| system.tick_ns);
+        let tick_ns = self.chart.system.as_ref().map_or(1, |system| system.tick_ns);
         let instant = |tick: u64| chart::system::length(tick as i64, tick_ns);
         let mut out = String::new();
         // The last events; before them, what came in and was decided.

@@ -15,21 +15,7 @@ use groundstate::verify::{Options, Outcome, Subject, verify};
 use groundstate::{Loaded, load, verify_preserved};
 use machine::Limits;
 use syntax::SourceFile;
-use testkit::NoFiles;
-
-/// A small linear congruential generator, so that a seed gives the same machines everywhere.
-struct Random(u64);
-
-impl Random {
-    fn below(&mut self, most: u64) -> u64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 33) % most
-    }
-
-    fn of<'t>(&mut self, all: &[&'t str]) -> &'t str {
-        all[self.below(all.len() as u64) as usize]
-    }
-}
+use testkit::{NoFiles, Random};
 
 /// The text of a main rule over `n` in 0..2, a flag `h`, a function `f` and an input. Writes begin with `:=`, so that they can be mapped.
 fn rule(random: &mut Random) -> String {
@@ -55,12 +41,12 @@ fn rule(random: &mut Random) -> String {
         "choose $x in N with $x != n do n := $x",
     ];
     if random.below(3) == 0 {
-        return random.of(&goes_on).to_string();
+        return random.pick(&goes_on).to_string();
     }
     let guards = ["go", "h", "go and h", "n = 1", "n != 2 or go", "not h and n < 2", "f(1)"];
-    let mut text = random.of(&updates).to_string();
+    let mut text = random.pick(&updates).to_string();
     for _ in 0..=random.below(3) {
-        text = format!("if {} then {} else {text} endif", random.of(&guards), random.of(&updates));
+        text = format!("if {} then {} else {text} endif", random.pick(&guards), random.pick(&updates));
     }
     text
 }
@@ -135,10 +121,10 @@ const PREDICATES: [&str; 14] = [
 ];
 
 fn predicate(random: &mut Random) -> String {
-    let one = random.of(&PREDICATES);
+    let one = random.pick(&PREDICATES);
     match random.below(4) {
-        0 => format!("({one} and {})", random.of(&PREDICATES)),
-        1 => format!("({one} or {})", random.of(&PREDICATES)),
+        0 => format!("({one} and {})", random.pick(&PREDICATES)),
+        1 => format!("({one} or {})", random.pick(&PREDICATES)),
         2 => format!("(not ({one}))"),
         _ => format!("({one})"),
     }
@@ -157,8 +143,8 @@ fn formula(random: &mut Random, depth: u32, one: &[&str], two: &[&str]) -> Strin
         0 => format!("(not {})", part(random)),
         1 => format!("({} and {})", part(random), part(random)),
         2 => format!("({} implies {})", part(random), part(random)),
-        3 | 4 => format!("{}({}, {})", random.of(two), part(random), part(random)),
-        _ => format!("{}({})", random.of(one), part(random)),
+        3 | 4 => format!("{}({}, {})", random.pick(two), part(random), part(random)),
+        _ => format!("{}({})", random.pick(one), part(random)),
     }
 }
 
@@ -173,7 +159,7 @@ fn properties(random: &mut Random) -> String {
     let mut plain = |form: &str, random: &mut Random| {
         let mut filled = form.to_string();
         for mark in ["@P", "@Q"] {
-            filled = filled.replace(mark, random.of(&PREDICATES[..5]));
+            filled = filled.replace(mark, random.pick(&PREDICATES[..5]));
         }
         text.push_str(&format!("{filled}\n"));
     };

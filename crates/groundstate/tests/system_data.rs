@@ -6,7 +6,7 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 
 use groundstate::simulate::read_value;
 use groundstate::verify::{Options, Outcome, verify};
-use groundstate::{Extent, Loaded, VerifiedSystem, not_kept, verified_system};
+use groundstate::{Loaded, VerifiedSystem, not_kept, verified_system};
 use machine::{Choice, Closed, Environment, Limits, LocationRef, Machine, Show, TimeUnit, Value};
 use model::Loader;
 use program::{DomainId, Expression, Program, PropertyKind};
@@ -235,7 +235,7 @@ fn values_lie_where_the_ground_model_has_them() {
     for text in [CELL, TIGHT] {
         let small = system(text, &|_| true);
         let inputs = ["sense_level", "stop"];
-        let kept: Vec<String> = small.data().into_iter().filter(|name| !inputs.contains(&name.as_str())).collect();
+        let kept: Vec<String> = small.data.into_iter().filter(|name| !inputs.contains(&name.as_str())).collect();
         for function in [
             "plan_old",
             "plan_isNewLevel",
@@ -262,7 +262,7 @@ fn machines_on_which_nothing_rests_are_left_out() {
         let (within, without) = part.machines();
         assert_eq!((names(within), names(without)), (vec![1, 2], vec![3]));
         let kept: Vec<String> =
-            part.data().into_iter().filter(|name| !["sense_level", "stop"].contains(&name.as_str())).collect();
+            part.data.into_iter().filter(|name| !["sense_level", "stop"].contains(&name.as_str())).collect();
         assert!(
             kept.iter().any(|name| name == "act_done") && !kept.iter().any(|name| name.starts_with("watch")),
             "{kept:?}"
@@ -272,7 +272,7 @@ fn machines_on_which_nothing_rests_are_left_out() {
         assert_eq!(names(first.machines().0), [1]);
         // What comes in can be asked about by itself.
         let given = system(text, &|function| function == "sense_level");
-        assert_eq!((given.data(), given.machines().0.len()), (vec!["sense_level".to_string()], 0));
+        assert_eq!((&given.data, given.machines().0.len()), (&vec!["sense_level".to_string()], 0));
     }
 }
 
@@ -295,14 +295,14 @@ fn lock_step(ground: &Loaded, verified: &Loaded, kept: &[String]) {
 
 #[test]
 fn data_are_a_part_only_where_something_speaks_of_them() {
-    assert_eq!(system(CELL, &|_| false).extent, Extent::Communication);
-    assert_eq!(system(CELL, &|function| function == "level_plan_value").extent, Extent::Communication);
+    assert_eq!(system(CELL, &|_| false).data, [""; 0]);
+    assert_eq!(system(CELL, &|function| function == "level_plan_value").data, [""; 0]);
     let small = system(CELL, &|function| function == "lamp");
     let read = |text: &str| {
         let mut asked = small.loaded.overlay();
         asked.property(PropertyKind::Invariant, "asked", text).unwrap_or_else(|faults| panic!("{faults:#?}"));
         let formula = &asked.program.properties.last().expect("it was added").formula;
-        not_kept(&asked.program, formula, &small.data())
+        not_kept(&asked.program, formula, &small.data)
     };
     assert_eq!(read("lamp implies act_isAhead or plan_level = 3"), [""; 0]);
     // Where values lie is the verified model's own business.

@@ -149,7 +149,7 @@ impl Run {
 /// Whether the two verified models do what the ground model does, for so many steps. What ends in the ground model, ends in the model
 /// whose elaborations take any time.
 fn lock_step(system: &VerifiedSystem, seed: u64, steps: u64) {
-    let drawn = system.whole.system.as_ref().expect("it has a system");
+    let drawn = system.chart.system.as_ref().expect("it has a system");
     let free: Vec<(&str, Vec<&str>)> = drawn
         .components
         .iter()

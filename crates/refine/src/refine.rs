@@ -141,9 +141,9 @@ fn attempt(
     }
     let is_complete = whys.0.is_empty();
     let mut diagrams = Default::default();
-    let verdict = match vacuous(&mut product, is_complete) {
-        Some(vacuous) => Verdict::Vacuous(vacuous),
-        None => {
+    let verdict = match says(&mut product, is_complete) {
+        Says::Nothing(vacuous) => Verdict::Vacuous(vacuous),
+        said @ (Says::Something | Says::Perhaps(_)) => {
             let hopeful = solve(&product, Rules::of(&product, true));
             let of_free = |input: &program::FunctionId| !coupling.shared[ABSTRACT].contains_key(input);
             if !hopeful.won && options.extents[ABSTRACT].bounds.keys().any(of_free) {
@@ -162,10 +162,11 @@ fn attempt(
                 if sure.won {
                     diagrams = evidence::used(&product, &sure);
                 }
-                match sure.won {
-                    true if bounded.is_empty() => Verdict::Refines,
-                    true => Verdict::Unknown(bounded),
-                    false => {
+                match (sure.won, said) {
+                    (true, _) if !bounded.is_empty() => Verdict::Unknown(bounded),
+                    (true, Says::Perhaps(pairs)) => Verdict::Unknown(vec![Why::Undistinguished(pairs)]),
+                    (true, _) => Verdict::Refines,
+                    (false, _) => {
                         unclear(&product, &mut whys);
                         Verdict::Unknown(whys.0)
                     }
@@ -218,36 +219,45 @@ fn unclear(product: &Product<'_>, whys: &mut Whys) {
     }
 }
 
-/// Why the answer would say nothing.
-fn vacuous(product: &mut Product<'_>, is_complete: bool) -> Option<Vacuous> {
+/// Whether an answer says anything.
+enum Says {
+    Something,
+    /// All of so many pairs of states that were compared correspond: it may say nothing.
+    Perhaps(usize),
+    Nothing(Vacuous),
+}
+
+fn says(product: &mut Product<'_>, is_complete: bool) -> Says {
     for (side, none) in [(ABSTRACT, product.initial.is_empty()), (CONCRETE, product.begun.is_empty())] {
         if none {
-            return Some(Vacuous::NoStart(side));
+            return Says::Nothing(Vacuous::NoStart(side));
         }
     }
     if product.pairs.is_empty() {
-        return Some(Vacuous::NoInitialPair(Box::new(evidence::no_initial_pair(product))));
+        return Says::Nothing(Vacuous::NoInitialPair(Box::new(evidence::no_initial_pair(product))));
     }
     if is_complete && product.sides[CONCRETE].steps.1 == 0 {
-        return Some(Vacuous::NoStep);
-    }
-    if product.judge.distinguishes {
-        return None;
+        return Says::Nothing(Vacuous::NoStep);
     }
     let [one, other] = [ABSTRACT, CONCRETE].map(|side| product.sides[side].count());
-    // Where each state corresponds to each, the search has met all of these pairs.
-    if product.pairs.len() < one * other {
-        let mut compared = 0;
-        // States that lie far apart first: they soon differ, unless the coupling says nothing.
-        for apart in 0..other {
-            for state in 0..one {
-                let there = (state + apart + other / 2) % other;
-                compared += 1;
-                if compared > COMPARED || !product.judge.coupled(&mut product.sides, [state as u32, there as u32]) {
-                    return None;
-                }
-            }
+    if product.judge.distinguishes || one < 2 || other < 2 {
+        return Says::Something;
+    }
+    // Without all states no relation is known to hold of every two.
+    let nothing = if is_complete { Says::Nothing(Vacuous::Total) } else { Says::Perhaps(one * other) };
+    // Where each state corresponds to each, the search may have met all of these pairs.
+    if product.pairs.len() == one * other {
+        return nothing;
+    }
+    // States that lie far apart first: they soon differ, unless the coupling says nothing.
+    let pairs = (0..other).flat_map(|apart| (0..one).map(move |state| (state, (state + apart + other / 2) % other)));
+    for (compared, (state, there)) in pairs.enumerate() {
+        if compared == COMPARED {
+            return Says::Perhaps(COMPARED);
+        }
+        if !product.judge.coupled(&mut product.sides, [state as u32, there as u32]) {
+            return Says::Something;
         }
     }
-    (one > 1 && other > 1 && is_complete).then_some(Vacuous::Total)
+    nothing
 }

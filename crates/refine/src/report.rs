@@ -34,6 +34,8 @@ pub enum Why {
     Long(u32),
     /// An input that the concrete machine does not look at has too many values.
     Valuations,
+    /// The relation holds of so many pairs of states that were compared, and perhaps of every two states.
+    Undistinguished(usize),
     /// Inputs of a machine had only the values that were given as bounds.
     Bounded(usize),
 }

@@ -12,18 +12,9 @@ use std::sync::Arc;
 use machine::{Choice, Environment, Limits, LocationRef, Machine, TimeUnit, Value};
 use program::{DomainId, Program};
 use refine::{Ended, Verdict};
+use testkit::Random;
 
 use crate::small::{program, report};
-
-/// A small linear congruential generator, so that a seed gives the same machines everywhere.
-struct Random(u64);
-
-impl Random {
-    fn below(&mut self, most: u64) -> u64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 33) % most
-    }
-}
 
 /// A random machine over `n` in 0..2, which is observed, a hidden flag and an input: the text of its main rule.
 fn rule(random: &mut Random) -> String {

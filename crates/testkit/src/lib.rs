@@ -1,5 +1,5 @@
-//! Tools for the tests of several crates: loaders, the blocks of Markdown pages, solver processes, JSON Schema, the
-//! repository's files.
+//! Tools for the tests of several crates: loaders, the blocks of Markdown pages, solver processes, JSON Schema, random
+//! numbers, the repository's files.
 //!
 //! It does I/O, which the crates under test must not, so it is a dev-dependency and nothing else. It knows `syntax`, `model`
 //! and `solve` for their traits. The unit tests of those three see another copy of these types: only their integration
@@ -13,6 +13,7 @@
 
 pub mod loader;
 pub mod page;
+pub mod random;
 pub mod repository;
 pub mod sample;
 pub mod schema;
@@ -20,4 +21,5 @@ pub mod solver;
 
 pub use loader::{Disk, EditedDisk, NoFiles, Patterns, Texts};
 pub use page::Page;
+pub use random::Random;
 pub use solver::NoSolver;

@@ -11,7 +11,7 @@ use std::sync::Arc;
 use machine::{Location, Value};
 use program::Program;
 use syntax::SourceFile;
-use testkit::{repository, sample};
+use testkit::{Random, repository, sample};
 use verify::{EngineKind, Options, Outcome, Report, Subject, Trace, Unreduced, verify};
 
 use crate::models::{Disk, lowered};
@@ -97,19 +97,6 @@ fn what_cannot_be_reduced_says_why() {
     assert_eq!(of("not both", &all), (Err(Unreduced::NoChoice), 3));
     assert_eq!(of("not both or go", &choose), (Err(Unreduced::Inputs), 9));
     assert_eq!(of("level(AA) = LOW or level(BB) != TOP or true", &choose), (Err(Unreduced::AllShared), 9));
-}
-
-struct Random(u64);
-
-impl Random {
-    fn below(&mut self, most: u64) -> u64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 33) % most
-    }
-
-    fn pick<'t>(&mut self, texts: &[&'t str]) -> &'t str {
-        texts[self.below(texts.len() as u64) as usize]
-    }
 }
 
 /// A model whose agents move by random rules over their own and shared locations.

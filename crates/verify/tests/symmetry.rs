@@ -11,7 +11,7 @@ use std::sync::Arc;
 use machine::{Location, Show, Value};
 use program::Program;
 use syntax::SourceFile;
-use testkit::{repository, sample};
+use testkit::{Random, repository, sample};
 use verify::{Distinct, EngineKind, Options, Outcome, Report, Storage, Subject, Symmetry, Trace, verify};
 
 use crate::models::{Disk, lowered};
@@ -343,19 +343,6 @@ fn the_repositorys_models_have_the_same_verdicts() {
         if let Some(expected) = expected {
             assert_eq!(told(&program, &reduced.symmetry.expect("it was asked for")), expected);
         }
-    }
-}
-
-struct Random(u64);
-
-impl Random {
-    fn below(&mut self, most: u64) -> u64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 33) % most
-    }
-
-    fn pick<'t>(&mut self, texts: &[&'t str]) -> &'t str {
-        texts[self.below(texts.len() as u64) as usize]
     }
 }
 

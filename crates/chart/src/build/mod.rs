@@ -20,7 +20,7 @@ pub(crate) use spelling::{
     call, control_location, function_name, inner_control, instance_call, memory_location, of_instance, rule_name,
     state_value,
 };
-pub use system::{Extent, Lengths, busy, late};
+pub use system::{Lengths, busy, late};
 
 use crate::chart::{Chart, Control, Machine, ShapeKind};
 use crate::fault;
@@ -117,11 +117,12 @@ fn folder_of_patterns(import: &str) -> Option<String> {
     (folder.is_empty() || folder.ends_with('/')).then(|| folder.to_string())
 }
 
-/// The part of a chart's system that [`verified`] is about: without what elaborations compute by rules and, unless data are a part, by
-/// machines.
-pub fn verifiable(chart: &Chart, extent: Extent) -> Chart {
-    if extent == Extent::WithData {
-        return Chart { system: chart.system.as_ref().map(system::without_rules), ..chart.clone() };
+/// The part of a chart that [`verified`] is about: its system with those of its components' machines on which the functions rest that are
+/// asked about, and without what elaborations compute by rules.
+pub fn verifiable(chart: &Chart, asks_about: &dyn Fn(&str) -> bool) -> Chart {
+    let sliced = chart.system.as_ref().and_then(|system| crate::component::slice(system, asks_about));
+    if let Some(sliced) = sliced {
+        return Chart { system: Some(system::without_rules(sliced)), ..chart.clone() };
     }
     let mut bare = Chart { system: chart.system.as_ref().map(system::bare), ..chart.clone() };
     let own = |(import, _): &(String, syntax::Span)| folder_of_patterns(import).is_some();
@@ -130,22 +131,16 @@ pub fn verifiable(chart: &Chart, extent: Extent) -> Chart {
     bare
 }
 
-/// The chart with those of its components' machines on which the functions rest that are asked about; none if no function of theirs is.
-pub fn sliced(chart: &Chart, asks_about: &dyn Fn(&str) -> bool) -> Option<Chart> {
-    let system = crate::component::slice(chart.system.as_ref()?, asks_about)?;
-    Some(Chart { system: Some(system), ..chart.clone() })
-}
-
-/// The functions of machines, sensors and actuators that [`verified`] with data keeps as they are in the ground model.
+/// The functions of machines, sensors and actuators of a [`verifiable`] chart that [`verified`] keeps as they are in the ground model.
 pub fn kept(chart: &Chart) -> Vec<String> {
     chart.system.as_ref().map(system::kept).unwrap_or_default()
 }
 
-/// The text of the model that verifies the system of a chart for which [`unbuilt`] is empty: the ground model with each state reduced
+/// The text of the model that verifies the system of a [`verifiable`] chart for which [`unbuilt`] is empty: the ground model with each state reduced
 /// to what its rules can tell apart, so that the states are finitely many. It imports the modules of the pattern library from the
 /// folder of its [`library`], those of the verification library from `verification/`, and further built-in libraries.
-pub fn verified(chart: &Chart, libraries: &[&str], lengths: Lengths, extent: Extent) -> Option<String> {
-    let mut parts = system::verified(chart, chart.system.as_ref()?, &library(chart)?, lengths, extent);
+pub fn verified(chart: &Chart, libraries: &[&str], lengths: Lengths) -> Option<String> {
+    let mut parts = system::verified(chart, chart.system.as_ref()?, &library(chart)?, lengths);
     parts.imports.extend(libraries.iter().filter(|name| **name != "CTLLibrary").map(|name| (*name).to_string()));
     let verified = Chart { name: format!("{}InTicks", chart.name), ..chart.clone() };
     let text = module::fresh(&verified, &parts);

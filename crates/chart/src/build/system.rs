@@ -178,12 +178,11 @@ endpar
 
 /// The system without what its elaborations compute.
 pub(super) fn bare(system: &System) -> System {
-    System { computing: Default::default(), ..without_rules(system) }
+    without_rules(System { computing: Default::default(), ..system.clone() })
 }
 
 /// The system without what its elaborations compute by rules.
-pub(super) fn without_rules(system: &System) -> System {
-    let mut system = system.clone();
+pub(super) fn without_rules(mut system: System) -> System {
     for phase in system.components.iter_mut().flat_map(|component| &mut component.phases) {
         if let Action::Elaborate(link) = &mut phase.action {
             *link = None;
@@ -195,10 +194,10 @@ pub(super) fn without_rules(system: &System) -> System {
 /// The parts of the model that verifies a system: its text is the whole of a file.
 ///
 /// The system's own main rule becomes a tick of the verification library, which forgets after each tick what no rule can tell apart.
-/// What elaborations compute by rules is left out, and what machines decide, unless it is part of the `extent`; their times are not.
+/// What elaborations compute by rules is left out; their times are not, nor is what the system's machines decide.
 /// `library` is the path of the pattern library's folder in imports.
-pub(super) fn verified(chart: &Chart, system: &System, library: &str, lengths: Lengths, extent: Extent) -> Parts {
-    let decided = (extent == Extent::WithData).then(|| by_place(system)).filter(|computing| !computing.ends.is_empty());
+pub(super) fn verified(chart: &Chart, system: &System, library: &str, lengths: Lengths) -> Parts {
+    let decided = (!system.computing.ends.is_empty()).then(|| by_place(system));
     let mut system = bare(system);
     let free = match lengths {
         Lengths::AsDrawn => Vec::new(),
@@ -274,15 +273,6 @@ pub(super) fn kept(system: &System) -> Vec<String> {
     let by_number = &system.computing.declarations;
     let made = by_place(system).declarations.into_iter().map(|made| made.name);
     made.filter(|name| by_number.iter().any(|known| known.name == *name)).collect()
-}
-
-/// What of a system is verified.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Extent {
-    /// Times, locks and channels.
-    Communication,
-    /// These, and the data with what the components' machines decide.
-    WithData,
 }
 
 /// How long the elaborations of asynchronous components take in the model that verifies a system.

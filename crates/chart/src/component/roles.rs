@@ -32,18 +32,6 @@ fn ends(component: &Component) -> (Vec<usize>, Vec<(usize, usize)>) {
     (read, written)
 }
 
-/// Of the channels that a component writes, one of each that is drawn: those to several readers get one datum.
-fn drawn(system: &System, written: &[(usize, usize)]) -> Vec<(usize, usize)> {
-    let name = |channel: usize| &system.channels[channel].drawn;
-    let mut found: Vec<(usize, usize)> = Vec::new();
-    for one in written {
-        if !found.iter().any(|first| name(first.0) == name(one.0)) {
-            found.push(*one);
-        }
-    }
-    found
-}
-
 /// The elaboration that prepares what a component writes in a phase: that of its machine, otherwise the last one before the phase.
 pub(super) fn prepares(component: &Component, phase: usize) -> Option<usize> {
     let elaborates = |at: &usize| matches!(component.phases[*at].action, Action::Elaborate(_));
@@ -67,7 +55,9 @@ pub(super) fn misplaced(system: &System) -> Vec<Diagnostic> {
                 (Action::Read(_) | Action::Write(_), _) => faults.push(fault::no_elaboration(named.span)),
             }
         }
-        for (channel, at) in drawn(system, &ends(component).1) {
+        let written = ends(component).1;
+        let each = system.one_of_each_drawn(written.iter().map(|(channel, _)| *channel));
+        for (channel, at) in written.into_iter().filter(|(channel, _)| each.contains(channel)) {
             let channel = &system.channels[channel];
             if channel.message.is_some() && prepares(component, at).is_none() {
                 faults.push(fault::written_too_early(component.phases[at].span, &component.name, &channel.drawn));
@@ -128,7 +118,7 @@ pub(super) fn assign(system: &System, machine: &mut ComponentMachine, types: &Ty
             FunctionKind::Controlled | FunctionKind::Static | FunctionKind::Derived | FunctionKind::Local => {}
         }
     }
-    for (channel, _) in drawn(system, &ends(component).1) {
+    for channel in system.one_of_each_drawn(ends(component).1.into_iter().map(|(channel, _)| channel)) {
         let channel = &system.channels[channel];
         if channel.message.is_none() {
             continue;
@@ -224,8 +214,8 @@ fn reason(system: &System, component: &Component, name: &str, reads: bool) -> Op
 fn offered(system: &System, component: &Component, reads: bool) -> Vec<String> {
     let (read, written) = ends(component);
     let mut names = Vec::new();
-    let written = drawn(system, &written);
-    for index in if reads { read } else { written.into_iter().map(|(index, _)| index).collect() } {
+    let written = system.one_of_each_drawn(written.into_iter().map(|(channel, _)| channel));
+    for index in if reads { read } else { written } {
         let channel = &system.channels[index];
         names.push(channel.drawn.clone());
         if reads {

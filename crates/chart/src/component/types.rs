@@ -124,7 +124,7 @@ pub(super) fn types(
     system: &System,
     loader: &mut dyn Loader,
 ) -> (Types, Vec<Diagnostic>) {
-    let drawn = system.channels.chunk_by(|one, next| one.drawn == next.drawn).map(|channels| &channels[0]);
+    let drawn = system.drawn_channels().map(|channels| &channels[0]);
     let channels = drawn.filter_map(|channel| Some((&channel.drawn, channel.message.as_ref()?)));
     let devices = system.devices.iter().filter_map(|device| Some((&device.name, device.message.as_ref()?)));
     let named: Vec<(&String, &Named)> = channels.chain(devices).collect();

@@ -87,6 +87,18 @@ fn along(recording: &Recording, at_once: usize) -> (Verdict, bool) {
 }
 
 #[test]
+fn what_the_head_names_is_in_the_model() {
+    let (sources, model, program) = model();
+    // A name in the log is no text of a model: it would be the term `true` here.
+    let head = Recording { wait_free: vec!["true".to_string()], ..recorded_for("modelled", 1) };
+    let refused = Session::new(sources, model, program, Limits::default(), &head, false).map(|_| ());
+    assert!(
+        matches!(&refused, Err(Refusal::Words(words)) if words == "the model has no channel true, which was generated wait-free"),
+        "{refused:?}"
+    );
+}
+
+#[test]
 fn the_models_own_run_conforms() {
     let recording = recorded("modelled");
     assert!(recording.events() > 50, "{} events", recording.events());

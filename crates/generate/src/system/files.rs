@@ -13,8 +13,7 @@ pub(super) fn data(system: &System, space: &str) -> String {
          //\n// A function `bool valid(const T&)` beside a type says which data may be handed over: one that is not valid is not\n\
          // published, but counted.\n#pragma once\n\nnamespace {space} {{\n"
     );
-    let drawn = system.channels.chunk_by(|one, next| one.drawn == next.drawn);
-    for channels in drawn.filter(|channels| channels[0].message.is_none()) {
+    for channels in system.drawn_channels().filter(|channels| channels[0].message.is_none()) {
         let from = &system.components[channels[0].from].name;
         let to = readers(system, channels);
         let _ = write!(text, "\n/// From {from} to {to}.\nstruct {} {{\n}};\n", datum(system, &channels[0].drawn));

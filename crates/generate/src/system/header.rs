@@ -8,7 +8,7 @@ use chart::system::{Action, Channel, ChannelKind, Component, System, Timing};
 use super::cycle::cycle;
 use super::machines::{devices, has_messages};
 use super::names::{datum, hook, member, pascal};
-use super::plan::{Access, Form, access, ends, numbers, prepared, ranks, stopping};
+use super::plan::{Access, Form, access, ends, numbers, ranks, stopping};
 
 /// The text of the header.
 pub(super) fn header(system: &System, file: &str, name: &str, form: &Form) -> String {
@@ -76,7 +76,7 @@ fn hook_class(text: &mut String, system: &System, component: &Component, form: &
         let _ = writeln!(text, "        {value} {}{{}};", member(&device.name));
     }
     text.push_str("    };\n    struct Out {\n");
-    for channel in prepared(system, &written) {
+    for channel in system.one_of_each_drawn(written) {
         let name = &system.channels[channel].drawn;
         let _ = writeln!(text, "        {}& {};", datum(system, name), member(name));
     }

@@ -64,7 +64,7 @@ pub(super) fn messages(system: &System, file: &str, space: &str) -> String {
             let _ = writeln!(text, "\nenum class {} : std::uint32_t {{ {} }};", member(name), literals.join(", "));
         }
     }
-    for channels in system.channels.chunk_by(|one, next| one.drawn == next.drawn) {
+    for channels in system.drawn_channels() {
         let channel = &channels[0];
         let Some(content) = system.computing.contents.get(&channel.drawn) else { continue };
         let from = &system.components[channel.from].name;

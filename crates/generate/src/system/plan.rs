@@ -70,13 +70,6 @@ pub(super) fn ends(component: &Component) -> (Vec<usize>, Vec<usize>) {
     (of(read), of(written))
 }
 
-/// Of the channels that a component writes, one of each that is drawn: what it prepares for several readers is one datum.
-pub(super) fn prepared(system: &System, written: &[usize]) -> Vec<usize> {
-    let name = |channel: &usize| &system.channels[*channel].drawn;
-    let first = |at: &usize| !written[..*at].iter().any(|channel| name(channel) == name(&written[*at]));
-    (0..written.len()).filter(first).map(|at| written[at]).collect()
-}
-
 /// Where the data lie that a component writes to a channel.
 fn place(channel: &Channel, component: usize, form: &Form) -> String {
     match access(channel, component, form) {
@@ -89,14 +82,14 @@ fn place(channel: &Channel, component: usize, form: &Form) -> String {
 /// Where a component prepares its results, in the order of `Out`.
 pub(super) fn places(system: &System, index: usize, form: &Form) -> String {
     let (_, written) = ends(&system.components[index]);
-    let prepared = prepared(system, &written);
+    let prepared = system.one_of_each_drawn(written);
     prepared.iter().map(|channel| place(&system.channels[*channel], index, form)).collect::<Vec<_>>().join(", ")
 }
 
 /// What brings the results that a component has prepared to the other readers of the same channel: assignments.
 pub(super) fn copies(system: &System, index: usize, form: &Form) -> Vec<String> {
     let (_, written) = ends(&system.components[index]);
-    let prepared = prepared(system, &written);
+    let prepared = system.one_of_each_drawn(written.iter().copied());
     let others = written.iter().filter(|channel| !prepared.contains(channel));
     let copy = |channel: &usize| {
         let channel = &system.channels[*channel];

@@ -78,7 +78,7 @@ pub fn ungenerated(system: &System) -> Vec<Diagnostic> {
         }
         types.push((super::machines::name(component), component.span));
     }
-    let drawn = system.channels.chunk_by(|one, next| one.drawn == next.drawn).map(|channels| &channels[0]);
+    let drawn = system.drawn_channels().map(|channels| &channels[0]);
     let channels = drawn.map(|channel| (&channel.drawn, datum(system, &channel.drawn), channel.span));
     let components = system.components.iter().map(|one| (&one.name, pascal(&one.name), one.span));
     for (name, made, span) in channels.chain(components) {

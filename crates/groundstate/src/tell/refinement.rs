@@ -128,6 +128,9 @@ impl Refinements<'_> {
                 "a segment has more than {}; `diagrams` may allow more",
                 plural(*most as usize, "concrete step")
             ),
+            Why::Undistinguished(pairs) => {
+                format!("the coupling holds of all {pairs} pairs of states that were compared: it may say nothing")
+            }
             Why::Valuations => "inputs that the concrete machine does not look at have too many values".to_string(),
             Why::Bounded(side) => {
                 format!("inputs of the {} machine had only the values that were given as bounds", SIDES[*side])

@@ -18,7 +18,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use explore::Trouble;
-use program::Program;
+use program::{Program, PropertyKind};
 pub use solve::Outside;
 use solve::session::{Silence, Solvers, Verdict};
 
@@ -172,8 +172,9 @@ pub(crate) fn solve(
             .collect();
         by_reachability(&mut provable, &known, told, solvers, &mut patience, &mut proves, &mut told)?;
     }
-    // Without an initial state, everything can be proved.
-    if !proves.is_empty() && bounded.found.is_empty() {
+    // Without an initial state, everything can be proved. Only assumptions leave none.
+    let assumes = program.properties.iter().any(|property| property.kind == PropertyKind::Invar);
+    if assumes && !proves.is_empty() && bounded.found.is_empty() {
         match Unrolling::new(&exact, solvers.start()?, true).possible(&[], &mut patience) {
             Ok(Verdict::Possible) => {}
             Ok(Verdict::Impossible) => solved.vacuous = true,

@@ -20,8 +20,7 @@ pub fn look(path: &Path, root: SourceFile, disk: &mut Disk) -> Result<Seen, Fail
     let size = match &chart.system {
         None => format!(" ({})", plural(machines, "machine")),
         Some(system) => {
-            let drawn = system.channels.chunk_by(|one, next| one.drawn == next.drawn);
-            let (components, channels) = (system.components.len(), drawn.count());
+            let (components, channels) = (system.components.len(), system.drawn_channels().count());
             format!(" ({}, {})", plural(components, "component"), plural(channels, "channel"))
         }
     };

@@ -205,3 +205,26 @@ fn parting(shell: &mut Shell, sources: &Sources, parted: &Parted) -> Result<(), 
     }
     Ok(())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use ::conform::Track;
+
+    #[test]
+    fn missed_deadlines_are_told_of_each_task_until_the_stop() {
+        let missed_at = |time_ns: i64| Event { time_ns, kind: Kind::Misses, ..Event::default() };
+        let track = |task: &str, times: &[i64]| Track {
+            task: task.to_string(),
+            events: times.iter().copied().map(missed_at).collect(),
+            ..Track::default()
+        };
+        let tracks = vec![track("drive", &[1, 5, 9]), track("arm", &[2]), track("eye", &[])];
+        let recording = Recording { tracks, stopped_ns: Some(6), ..Recording::default() };
+        let unsaid = "whether the model forbids that is not looked at";
+        assert_eq!(missed(&recording), format!("\n3 deadlines were missed (drive 2, arm 1); {unsaid}"));
+        let one = Recording { stopped_ns: Some(1), ..recording };
+        assert_eq!(missed(&one), format!("\n1 deadline was missed (drive 1); {unsaid}"));
+        assert_eq!(missed(&Recording { stopped_ns: Some(0), ..one }), "");
+    }
+}

@@ -8,12 +8,13 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
+use groundstate::chart::system::Action;
 use groundstate::inputs::verification::Verification;
 use groundstate::job::{self, Cancel, VerifyEvent};
 use groundstate::tell::{Story, Verdicts};
 use groundstate::verify::temporal::fairness::AgentFairness;
 use groundstate::verify::{NoSolvers, Options, Outcome, Report, Request, Subject};
-use groundstate::{Extent, Overlay, VerifiedSystem};
+use groundstate::{Overlay, VerifiedSystem};
 use machine::Limits;
 use program::{Expression, Program, PropertyKind};
 use syntax::Sources;
@@ -43,7 +44,7 @@ pub fn load(shell: &mut Shell, arguments: &Arguments) -> Result<Result<Box<Verif
     let spoken = words_of(arguments, &said);
     let speaks_of = |function: &str| arguments.data || spoken.contains(function);
     match groundstate::verified_system(root, libraries, &speaks_of, &mut disk) {
-        Ok(system) if arguments.data && system.extent != Extent::WithData => {
+        Ok(system) if arguments.data && system.machines().0.is_empty() => {
             let help = "a machine is named by `elaborate NAME by MACHINE`";
             Err(Failure::usage_with_help("--data: no component of this chart decides by a machine", help))
         }
@@ -81,23 +82,20 @@ pub fn about(shell: &mut Shell, system: &VerifiedSystem) -> Result<(), Failure> 
         return Ok(());
     }
     let (within, without) = system.machines();
-    let components = system.whole.system.iter().flat_map(|system| &system.components).collect::<Vec<_>>();
+    let components = system.chart.system.iter().flat_map(|system| &system.components).collect::<Vec<_>>();
     let names = within.iter().map(|machine| components[machine.component].name.as_str()).collect::<Vec<_>>();
-    match system.extent {
-        Extent::Communication => {
-            writeln!(shell.out(), "of times, locks and channels as drawn; what elaborations compute is left out")?;
+    let subject = match names.join(", ") {
+        _ if system.data.is_empty() => {
+            "times, locks and channels as drawn; what elaborations compute is left out".to_string()
         }
-        Extent::WithData if names.is_empty() => {
-            writeln!(shell.out(), "of times, locks, channels and their data as drawn")?
-        }
-        Extent::WithData => {
-            let deciders = names.join(", ");
-            writeln!(
-                shell.out(),
-                "of times, locks and channels as drawn, with what the machines of {deciders} decide"
-            )?;
-        }
-    }
+        names if names.is_empty() => "times, locks, channels and their data as drawn".to_string(),
+        names => format!("times, locks and channels as drawn, with what the machines of {names} decide"),
+    };
+    let phases = components.iter().flat_map(|component| &component.phases);
+    let by_rule =
+        !system.data.is_empty() && phases.into_iter().any(|phase| matches!(phase.action, Action::Elaborate(Some(_))));
+    let rules = if by_rule { "; what elaborations compute by rules is left out" } else { "" };
+    writeln!(shell.out(), "of {subject}{rules}")?;
     let mut files: Vec<&str> = without.iter().map(|machine| machine.source.name.as_str()).collect();
     files.sort_unstable();
     files.dedup();
@@ -120,10 +118,9 @@ pub fn refuse(
     own: usize,
     terminal: Option<&Expression>,
 ) -> Result<(), Failure> {
-    let data = system.data();
     let properties = asked.program.properties[own..].iter().map(|property| (property.name.as_str(), &property.formula));
     for (name, formula) in properties.chain(terminal.map(|term| ("--terminal", term))) {
-        let read = groundstate::not_kept(&asked.program, formula, &data);
+        let read = groundstate::not_kept(&asked.program, formula, &system.data);
         if !read.is_empty() {
             let help =
                 "ask about phases, locks, queues, what is pending or fresh; or verify the model of `chart build`";
@@ -177,7 +174,7 @@ pub fn general(
     let own = general.program.properties.len();
     // That some run does a thing may be true only of times that the system does not have: a formula of CTL may ask for that.
     // Ages are those of the times as they are drawn, too.
-    let has_ages = system.whole.system.as_ref().is_some_and(|system| !system.bounds.is_empty());
+    let has_ages = system.chart.system.as_ref().is_some_and(|system| !system.bounds.is_empty());
     let mut left_out = has_ages;
     left_out |= leave_out(&mut asked, own, &|kind| kind == PropertyKind::Ctl);
     let mut searched = search(&asked.program, &options, *agents, (&mut watch, until))?;
