@@ -13,6 +13,7 @@ mod events;
 mod evidence;
 mod fault;
 mod functions;
+mod head;
 mod order;
 mod session;
 mod steps;

@@ -14,6 +14,7 @@ use syntax::{Diagnostic, Sources};
 
 use crate::Verdict;
 use crate::functions::Functions;
+use crate::head::contradiction;
 use crate::steps::Steps;
 use crate::vocabulary::Vocabulary;
 use crate::{timed, untimed};
@@ -120,6 +121,9 @@ impl Session {
         if let Some(name) = head.wait_free.iter().find(is_none) {
             let words = format!("the model has no channel {name}, which was generated wait-free");
             return Err(words.into());
+        }
+        if let Some(words) = contradiction(head, &machine, &vocabulary) {
+            return Err(format!("the recording is of another system: {words}").into());
         }
         let steps = match Steps::add(&head.wait_free, &mut sources, &mut model, &mut program) {
             Ok(steps) => steps,

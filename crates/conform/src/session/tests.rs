@@ -2,6 +2,7 @@
 //! same verdict as reading the whole.
 
 use machine::Closed;
+use recording::Rhythm;
 use testkit::{Disk, repository};
 
 use super::*;
@@ -96,6 +97,40 @@ fn what_the_head_names_is_in_the_model() {
         matches!(&refused, Err(Refusal::Words(words)) if words == "the model has no channel true, which was generated wait-free"),
         "{refused:?}"
     );
+}
+
+#[test]
+fn what_the_head_says_of_tasks_is_so_in_the_model() {
+    let refused = |task: &str, change: &dyn Fn(&mut Track)| {
+        let mut head = recorded_for("modelled", 1);
+        change(head.tracks.iter_mut().find(|track| track.task == task).expect("the task is there"));
+        let (sources, model, program) = model();
+        match Session::new(sources, model, program, Limits::default(), &head, false) {
+            Ok(_) => "nothing".to_string(),
+            Err(Refusal::Words(words)) => words.replace("the recording is of another system: ", ""),
+            Err(other) => panic!("{other:?}"),
+        }
+    };
+    let rhythm = |period: i64, offset: i64, deadline: i64| {
+        let [period_ns, offset_ns, deadline_ns] = [period, offset, deadline].map(|ticks| ticks * TICK_NS);
+        move |track: &mut Track| track.rhythm = Some(Rhythm { period_ns, offset_ns, deadline_ns })
+    };
+    // The camera has a period of 100 ticks; the servoing has none, and begins again and again.
+    assert_eq!(refused("camera", &rhythm(100, 0, 100)), "nothing");
+    let period = "the period of camera is 0.09 ms in the recording, 0.1 ms in the model";
+    assert_eq!(refused("camera", &rhythm(90, 0, 90)), period);
+    let offset = "the offset of camera is 0.001 ms in the recording, 0 ms in the model";
+    assert_eq!(refused("camera", &rhythm(100, 1, 100)), offset);
+    let deadline = "the deadline of camera is 0.2 ms in the recording, 0.1 ms in the model";
+    assert_eq!(refused("camera", &rhythm(100, 0, 200)), deadline);
+    let none = "visual_servoing has a period in the recording, and none in the model";
+    assert_eq!(refused("visual_servoing", &rhythm(100, 0, 100)), none);
+    let awaits = |channel: &'static str| move |track: &mut Track| track.awaits = Some(channel.to_string());
+    assert_eq!(refused("visual_servoing", &awaits("camera_to_vs")), "nothing");
+    let other = "visual_servoing awaits vs_to_robot in the recording, camera_to_vs in the model";
+    assert_eq!(refused("visual_servoing", &awaits("vs_to_robot")), other);
+    let nothing = "robot awaits vs_to_robot in the recording, nothing in the model";
+    assert_eq!(refused("robot", &awaits("vs_to_robot")), nothing);
 }
 
 #[test]
