@@ -7,7 +7,7 @@
 use syntax::{Diagnostic, FileId, ast};
 
 use crate::check::body::{Body, Bound};
-use crate::check::local_state;
+use crate::check::local_state::Writes;
 use crate::coerce::can_coerce;
 use crate::declaration::{Rule, Variable};
 use crate::domain::Domains;
@@ -89,7 +89,7 @@ impl Model {
 
     /// Checks a rule of a scenario; it may update monitored functions as well.
     pub fn check_rule(&mut self, file: FileId, rule: &ast::Rule) -> Fragment<RuleNode> {
-        let updated = local_state::updated_variables(rule, &macros::updated_by_name(self));
+        let updated = Writes::of(rule).updated(&macros::updated_by_name(self));
         let mut fragment = self.fragment(file, |body| {
             body.updated = updated;
             body.in_scenario = true;

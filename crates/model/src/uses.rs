@@ -62,7 +62,9 @@ impl Uses {
     /// Those of a file, in the order of their places, each once.
     pub fn in_file(&self, file: FileId) -> Vec<Use> {
         let mut found: Vec<Use> = self.0.iter().filter(|name| name.span.file == file).copied().collect();
-        found.sort_by_key(|name| (name.span, name.referent, !name.declares));
+        // Nearly all have a place of their own.
+        let rest = |name: &Use| (name.span, name.referent, !name.declares);
+        found.sort_by(|one, other| one.span.start.cmp(&other.span.start).then_with(|| rest(one).cmp(&rest(other))));
         found.dedup_by_key(|name| (name.span, name.referent));
         found
     }

@@ -21,16 +21,63 @@ use crate::term::Term;
 /// little.
 pub(crate) type UpdatedParameters = BTreeSet<(String, usize)>;
 
+/// What a rule writes to where that may be a variable: read once, since its tree is large.
+#[derive(Debug, Default)]
+pub(crate) struct Writes {
+    /// Variables that updates and turbo returns write to.
+    variables: Vec<String>,
+    /// Variables that are given to macro rules: the rule's name, the parameter's place, the variable.
+    given: Vec<(String, usize, String)>,
+}
+
+impl Writes {
+    /// Those of a rule.
+    pub(crate) fn of(rule: &ast::Rule) -> Writes {
+        let mut writes = Writes::default();
+        let name = |term: Option<ast::Term>| match term {
+            Some(ast::Term::Variable(variable)) => variable.token().map(|token| token.text().to_string()),
+            _ => None,
+        };
+        for node in rule.syntax().descendants() {
+            let target = match node.kind() {
+                SyntaxKind::UPDATE_RULE => ast::UpdateRule::cast(node).and_then(|update| update.target()),
+                SyntaxKind::RETURN_RULE => ast::ReturnRule::cast(node).and_then(|update| update.target()),
+                SyntaxKind::MACRO_CALL_RULE => {
+                    let Some(call) = ast::MacroCallRule::cast(node) else { continue };
+                    let Some(rule) = call.name() else { continue };
+                    for (place, argument) in call.arguments().into_iter().flat_map(|list| list.terms()).enumerate() {
+                        writes.given.extend(name(Some(argument)).map(|name| (rule.text().to_string(), place, name)));
+                    }
+                    continue;
+                }
+                _ => continue,
+            };
+            writes.variables.extend(name(target));
+        }
+        writes
+    }
+
+    /// The variables that the rule updates, itself or through macro rules that update these parameters.
+    pub(crate) fn updated(&self, parameters: &UpdatedParameters) -> BTreeSet<String> {
+        let through = |(rule, place, _): &&(String, usize, String)| parameters.contains(&(rule.clone(), *place));
+        let given = self.given.iter().filter(through).map(|(_, _, variable)| variable);
+        self.variables.iter().chain(given).cloned().collect()
+    }
+}
+
 /// Adds the parameters that the rules of a file update, themselves or through the rules that they call.
 pub(crate) fn add_updated_parameters<'r>(
-    rules: impl Iterator<Item = &'r ast::RuleDecl> + Clone,
+    rules: impl Iterator<Item = (&'r ast::RuleDecl, &'r Writes)> + Clone,
     known: &mut UpdatedParameters,
 ) {
     loop {
         let before = known.len();
-        for rule in rules.clone() {
-            let (Some(name), Some(body)) = (rule.name(), rule.body()) else { continue };
-            let updated = updated_variables(&body, known);
+        for (rule, writes) in rules.clone() {
+            let updated = writes.updated(known);
+            if updated.is_empty() {
+                continue;
+            }
+            let Some(name) = rule.name() else { continue };
             let parameters = rule.parameters().into_iter().flat_map(|list| list.parameters());
             for (place, parameter) in parameters.enumerate() {
                 if parameter.variable().is_some_and(|token| updated.contains(token.text())) {
@@ -42,33 +89,6 @@ pub(crate) fn add_updated_parameters<'r>(
             return;
         }
     }
-}
-
-/// The variables that updates, turbo returns and macro calls inside a rule write to.
-pub(crate) fn updated_variables(rule: &ast::Rule, parameters: &UpdatedParameters) -> BTreeSet<String> {
-    let mut updated = BTreeSet::new();
-    let mut add = |term: Option<ast::Term>| {
-        if let Some(ast::Term::Variable(variable)) = term {
-            updated.extend(variable.token().map(|token| token.text().to_string()));
-        }
-    };
-    for node in rule.syntax().descendants() {
-        match node.kind() {
-            SyntaxKind::UPDATE_RULE => add(ast::UpdateRule::cast(node).and_then(|update| update.target())),
-            SyntaxKind::RETURN_RULE => add(ast::ReturnRule::cast(node).and_then(|update| update.target())),
-            SyntaxKind::MACRO_CALL_RULE if !parameters.is_empty() => {
-                let Some(call) = ast::MacroCallRule::cast(node) else { continue };
-                let Some(name) = call.name() else { continue };
-                for (place, argument) in call.arguments().into_iter().flat_map(|list| list.terms()).enumerate() {
-                    if parameters.contains(&(name.text().to_string(), place)) {
-                        add(Some(argument));
-                    }
-                }
-            }
-            _ => {}
-        }
-    }
-    updated
 }
 
 /// What stands around the body of a `let`, from the outside in.

@@ -35,7 +35,7 @@ use crate::suggest::nearest;
 use crate::{declare, endless, macros, unstarted};
 use body::{Body, Bound};
 use definition::Defined;
-use local_state::UpdatedParameters;
+use local_state::{UpdatedParameters, Writes};
 
 /// Checks a model: reads its imports, resolves every name, finds the domain of every term.
 ///
@@ -253,12 +253,15 @@ impl Checker<'_> {
             definition::function(self.site(names, unit.file), &def, &mut defined);
             self.defined = defined;
         }
-        local_state::add_updated_parameters(rules.iter().map(|(decl, _)| decl), &mut self.updated);
-        for (decl, id) in rules {
+        let writes: Vec<Writes> =
+            rules.iter().map(|(decl, _)| decl.body().map(|body| Writes::of(&body)).unwrap_or_default()).collect();
+        let written = rules.iter().map(|(decl, _)| decl).zip(&writes);
+        local_state::add_updated_parameters(written, &mut self.updated);
+        for ((decl, id), writes) in rules.iter().zip(&writes) {
             if stop.is_asked() {
                 return;
             }
-            self.rule(unit, names, decl, *id);
+            self.rule(unit, names, decl, *id, writes);
         }
         let sources = self.sources;
         for written in definitions.iter().flat_map(|definitions| definitions.properties()) {
@@ -266,11 +269,11 @@ impl Checker<'_> {
         }
     }
 
-    fn rule(&mut self, unit: &Unit, names: &Names, decl: &ast::RuleDecl, id: RuleId) {
+    fn rule(&mut self, unit: &Unit, names: &Names, decl: &ast::RuleDecl, id: RuleId, writes: &Writes) {
         let rule = self.model.rule(id);
         let (parameters, result, place) = (rule.variables.clone(), rule.result, Span::new(unit.file, decl.range()));
         let bound = if rule.turbo { Bound::Parameter } else { Bound::MacroParameter };
-        let updated = decl.body().map(|rule| local_state::updated_variables(&rule, &self.updated)).unwrap_or_default();
+        let updated = writes.updated(&self.updated);
         let mut body = Body::new(self.site(names, unit.file), &parameters, bound);
         body.result = result;
         body.updated = updated;

@@ -34,9 +34,12 @@ pub trait AstNode: Sized {
 
 /// The byte range of a node without the trivia at its ends.
 ///
-/// INVARIANT: the parser puts trivia outside the nodes it separates, so only the root has trivia at its ends, and
-/// looking at the node's own children is enough. For all other nodes this takes constant time.
+/// INVARIANT: the parser puts trivia outside the nodes it separates, so only a root has trivia at its ends, and
+/// looking at its own children is enough. For all other nodes this takes constant time.
 pub fn trimmed_range(node: &SyntaxNode) -> rowan::TextRange {
+    if node.parent().is_some() {
+        return node.text_range();
+    }
     let trivia = |element: &crate::SyntaxElement| element.kind().is_trivia();
     let mut first = node.first_child_or_token();
     while let Some(element) = first.as_ref().filter(|element| trivia(element)) {
