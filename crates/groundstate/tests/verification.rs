@@ -55,7 +55,9 @@ fn verdicts(program: &Program, report: &Report) -> String {
             Outcome::Unknown(_) => format!("unknown {name}\n"),
         }
     });
-    lines.chain([format!("states {}\n", report.progress.states)]).collect()
+    let states = format!("states {}\n", report.progress.states);
+    let blocked = (report.progress.blocked > 0).then(|| format!("blocked {}\n", report.progress.blocked));
+    lines.chain([states]).chain(blocked).collect()
 }
 
 #[test]

@@ -19,6 +19,9 @@ pub struct Progress {
     pub spilled: u64,
     /// States whose steps were made by machine code.
     pub compiled: u64,
+    /// States of which the assumptions leave no step: what a run would do after them is not looked at. A search of single states
+    /// counts them.
+    pub blocked: u64,
 }
 
 /// Why a search ended before it had explored all states.

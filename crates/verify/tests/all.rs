@@ -1,6 +1,7 @@
 //! The tests of `verify` as one program, since linking takes longer than most of them run. Each file of this folder is
 //! a module here.
 
+mod blocked;
 mod checkpoint;
 mod disk;
 mod exploration;

@@ -155,6 +155,9 @@ pub struct ExploredLine<'a> {
     /// How many states' steps were made by machine code, where any were.
     #[serde(skip_serializing_if = "Option::is_none")]
     compiled: Option<u64>,
+    /// Of how many states the assumptions leave no step, where there are any.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    blocked: Option<u64>,
     #[serde(flatten)]
     more: &'a Explored,
 }
@@ -171,6 +174,7 @@ impl<'a> ExploredLine<'a> {
             bytes: progress.bytes,
             disk: (progress.spilled > 0).then_some(progress.spilled),
             compiled: (progress.compiled > 0).then_some(progress.compiled),
+            blocked: (progress.blocked > 0).then_some(progress.blocked),
             more,
         }
     }

@@ -59,7 +59,11 @@ pub fn explored(progress: &Progress, extent: Extent) -> String {
         0 => String::new(),
         count => format!(", the steps of {count} by machine code"),
     };
-    format!("{states} ({whole}), {transitions}{depth}{disk}{compiled}")
+    let blocked = match progress.blocked {
+        0 => String::new(),
+        count => format!("; in {} no step satisfies the assumptions: runs end there", plural(count as usize, "state")),
+    };
+    format!("{states} ({whole}), {transitions}{depth}{disk}{compiled}{blocked}")
 }
 
 /// Why partial-order reduction was not possible.

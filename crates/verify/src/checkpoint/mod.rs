@@ -31,7 +31,7 @@ use crate::storage::Store;
 use crate::target::{Found, Target};
 
 /// Increased whenever the meaning of the written words changes.
-const VERSION: u64 = 3;
+const VERSION: u64 = 4;
 
 /// The attempts before the present one, which ended because states did not fit.
 #[derive(Debug, Clone, Default)]
@@ -112,7 +112,8 @@ pub(crate) fn keep(
         _ => shards.iter().map(|shard| shard.next - begin(shard, levels - 1)).sum(),
     };
     let transitions: u64 = shards.iter().map(|shard| shard.transitions).sum();
-    writer.section(&[words as u64, layout(explorer), numbers as u64, transitions, expanded as u64]);
+    let blocked: u64 = shards.iter().map(|shard| shard.blocked).sum();
+    writer.section(&[words as u64, layout(explorer), numbers as u64, transitions, blocked, expanded as u64]);
     writer.section(&past.attempts);
     let journal = shards[0].journal.as_ref();
     writer.section(journal.map_or(&[], |journal| &journal.places));
@@ -180,7 +181,7 @@ fn read(keeper: &mut dyn Keeper) -> Result<Option<Kept>, Refusal> {
 
 impl Kept {
     fn understood(self, program: &Arc<Program>, plan: &Plan) -> Result<Resumed, Unfit> {
-        let [words, fields, numbers, transitions, expanded] = self.numbers[..] else {
+        let [words, fields, numbers, transitions, blocked, expanded] = self.numbers[..] else {
             return Err(Refusal::Damaged.into());
         };
         let mut past = Past { widening: Widening::default(), attempts: self.attempts.clone() };
@@ -246,6 +247,7 @@ impl Kept {
         }
         let shard = &mut shards[0];
         shard.transitions = transitions;
+        shard.blocked = blocked;
         shard.unknown.extend(self.unknown.iter().map(|condition| *condition as usize));
         shard.unbounded.extend(
             self.unbounded.chunks_exact(5).map(to_unbounded).collect::<Option<Vec<_>>>().ok_or(Refusal::Damaged)?,

@@ -37,6 +37,8 @@ pub(crate) struct Shard {
     pub transitions: u64,
     /// How many states' steps were made by machine code.
     pub compiled: u64,
+    /// Of how many states the assumptions leave no step.
+    pub blocked: u64,
     /// The next state to expand.
     pub next: usize,
     /// Conditions whose truth is unknown in some state.
@@ -98,6 +100,7 @@ pub(crate) struct Tally {
     pub states: u64,
     pub transitions: u64,
     pub compiled: u64,
+    pub blocked: u64,
     /// States of this level that still have to be expanded.
     pub left: u64,
     /// States of the next level.
@@ -134,6 +137,7 @@ impl Tally {
             bytes: sum(|report| report.bytes),
             spilled: sum(|report| report.spilled),
             compiled: sum(|report| report.compiled),
+            blocked: sum(|report| report.blocked),
         }
     }
 }
@@ -219,6 +223,19 @@ pub(crate) fn note(found: &mut Vec<Found>, one: Found, explorer: &mut Explorer) 
     }
 }
 
+/// Whether the assumptions leave no step of a state whose alternatives lead to these.
+fn is_blocked(explorer: &mut Explorer, plan: &Plan, expansion: &Expansion, successors: &[u64]) -> bool {
+    if expansion.stayed > 0 || expansion.faults != [0; 3] || expansion.unbounded > 0 {
+        return false;
+    }
+    if expansion.moved == 0 {
+        return expansion.excluded > 0;
+    }
+    let words = explorer.words();
+    let mut admitted = |state: &[u64]| plan.assumed.iter().all(|one| explorer.truth(*one, state) == Truth::True);
+    !plan.assumed.is_empty() && !successors.chunks_exact(words).any(&mut admitted)
+}
+
 impl Shard {
     /// A shard without states.
     pub fn new(store: Store, reduction: &Option<Arc<Reduction>>) -> Shard {
@@ -228,6 +245,7 @@ impl Shard {
             found: Vec::new(),
             transitions: 0,
             compiled: 0,
+            blocked: 0,
             next: 0,
             unknown: BTreeSet::new(),
             widening: Widening::default(),
@@ -363,6 +381,7 @@ impl Shard {
             states: self.store.len() as u64,
             transitions: self.transitions,
             compiled: self.compiled,
+            blocked: self.blocked,
             left: (end - self.next) as u64,
             fresh: (self.store.len() - end) as u64,
             pending: self.store.pending() as u64,
@@ -418,6 +437,7 @@ impl Shard {
                         walked.for_each(|successor| edges.leads_to(owner(successor, workers)));
                         edges.end(&expansion);
                     }
+                    self.blocked += u64::from(is_blocked(explorer, plan, &expansion, &out[begin..]));
                     self.compiled = explorer.compiled_states();
                     self.transitions += u64::from(expansion.moved);
                     made += u64::from(expansion.moved);
