@@ -15,7 +15,7 @@ use groundstate::workspace::{Absent, Files, Findings, NotLoaded, Outdated, Reads
 use groundstate::{Kind, Loaded, Suite, Workspace, model_of, patterns};
 use model::{Checked, Loader, Model};
 use syntax::ast::{AstNode, ScenarioFile};
-use syntax::{FileId, SourceFile, Sources, Stop, SyntaxNode};
+use syntax::{FileId, Severity, SourceFile, Sources, Stop, SyntaxNode};
 
 use crate::analysis::{Analysis, Base};
 
@@ -184,6 +184,20 @@ impl<F: Files> Project<F> {
         let staged = Suite::new().stage(source, &mut self.workspace.texts());
         self.not_stopped().map_err(|absent| absent.told(path))?;
         staged.map_err(|_| format!("{path} or its model has errors: mend them first"))
+    }
+
+    /// The text of a scenario that is in no file, for a session; `path` is where it would lie.
+    ///
+    /// # Errors
+    /// It or its model has errors; a sentence with the first of them.
+    pub fn stage_text(&mut self, path: &str, text: &str) -> Result<Scene, String> {
+        let staged = Suite::new().stage(SourceFile::new(path, text), &mut self.workspace.texts());
+        self.not_stopped().map_err(|absent| absent.told(path))?;
+        staged.map_err(|tested| {
+            let fault = tested.diagnostics.iter().find(|fault| fault.severity == Severity::Error);
+            let told = fault.map_or("it cannot be played", |fault| fault.message.as_str());
+            format!("the scenario or its model has errors: {told}")
+        })
     }
 
     /// What a run of the model at a path is to show: the report specification beside it, or what its chart or the model says.

@@ -33,6 +33,9 @@ pub struct Verdict {
     /// The step from which the trace repeats forever.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub again_from: Option<usize>,
+    /// That run as a scenario, to be written beside the model; none where no scenario makes it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub scenario: Option<String>,
 }
 
 impl Verdict {
@@ -79,6 +82,7 @@ impl Verdict {
             reasons: Vec::new(),
             trace: None,
             again_from: None,
+            scenario: None,
         }
     }
 }

@@ -111,6 +111,7 @@ impl Launch {
             recorded: None,
             limits,
             watched: None,
+            begins: false,
         };
         Session::open(Arc::new(scene), options).map_err(|error| format!("the run cannot be started: {error}").into())
     }

@@ -71,6 +71,8 @@ struct Open {
 #[derive(Debug)]
 struct Texts {
     lines: BTreeMap<String, Lines>,
+    /// The one that is in no file.
+    unsaved: Option<String>,
     encoding: Encoding,
 }
 
@@ -125,6 +127,7 @@ pub fn answer(
         .texts
         .lines
         .iter()
+        .filter(|(path, _)| open.texts.unsaved.as_ref() != Some(path))
         .any(|(path, lines)| answers.project.text(path).map_or(true, |source| source.text != *lines.text()));
     let told = serde_json::to_value(State { session: id, stale, ..open.told() });
     if kept? {
@@ -142,9 +145,11 @@ impl Sessions {
         if self.open.len() >= SESSIONS {
             return Err(failed(format!("{SESSIONS} sessions are open: close one first")));
         }
-        let scene = match Kind::of(Path::new(&path)) {
-            Some(Kind::Scenario) => answers.project.stage(&path).map_err(failed)?,
-            _ => Scene::from(&*answers.project.load(&path).map_err(failed)?),
+        let unsaved = params["scenario"].as_str();
+        let scene = match (unsaved, Kind::of(Path::new(&path))) {
+            (Some(text), _) => answers.project.stage_text(&beside(&path), text).map_err(failed)?,
+            (None, Some(Kind::Scenario)) => answers.project.stage(&path).map_err(failed)?,
+            (None, _) => Scene::from(&*answers.project.load(&path).map_err(failed)?),
         };
         if scene.script.is_none() && scene.program.main.is_none() {
             return Err(failed("a module has no main rule to run"));
@@ -155,8 +160,9 @@ impl Sessions {
             .sources
             .iter()
             .filter(|(_, source)| ide::library_text(&source.name).is_none() && !source.name.starts_with('<'));
+        let of = unsaved.map(|_| beside(&path));
         let lines = files.map(|(_, source)| (source.name.clone(), Lines::new(Arc::clone(&source.text)))).collect();
-        let texts = Texts { lines, encoding: answers.settings.encoding };
+        let texts = Texts { lines, unsaved: of, encoding: answers.settings.encoding };
         let options = SessionOptions {
             seed: params["seed"].as_u64(),
             history: HISTORY,
@@ -165,6 +171,7 @@ impl Sessions {
             recorded,
             limits: Limits { work: WORK, ..Limits::default() },
             watched: watched.as_ref().ok().map(Arc::clone),
+            begins: params["begins"].as_bool().unwrap_or(false),
         };
         let session = Session::open(Arc::new(scene), options).map_err(|error| failed(error.to_string()))?;
         self.last += 1;
@@ -172,6 +179,12 @@ impl Sessions {
         self.open.insert(self.last, Open { session, texts, breaks: Vec::new(), refused: None, unwatched });
         Ok(self.last)
     }
+}
+
+/// The name of a scenario that is in no file: it loads what lies beside this model.
+fn beside(model: &str) -> String {
+    let folder = model.rfind('/').map_or("", |end| &model[..=end]);
+    format!("{folder}<unsaved>.avalla")
 }
 
 /// Inputs by step, from the text of a file.

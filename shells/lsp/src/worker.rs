@@ -281,12 +281,15 @@ impl Worker {
                     route::answer(answers, method, params)
                 }
             }));
-            self.pending.end();
+            let stopped = self.pending.end();
             answer = answered.unwrap_or_else(|panic| {
                 self.begin_anew();
                 Err(Refused::new(ErrorCode::InternalError, format!("{method} failed: {}", told(&*panic))))
             });
-            if answer.is_ok() && !self.pending.is_present(&path, stamp, about_all) {
+            // What was stopped half-way has failed for no reason that is worth telling.
+            let is_half = |answer: &Refused| stopped && answer.code == ErrorCode::RequestFailed as i32;
+            let is_present = self.pending.is_present(&path, stamp, about_all);
+            if answer.as_ref().map_or_else(is_half, |_| !is_present) {
                 answer = Err(outdated);
             }
         }

@@ -61,7 +61,11 @@ impl Evaluator {
 
     /// These inputs were given for the initial state.
     pub fn begin(&mut self, inputs: &[(Location, Value)]) {
-        self.initial = inputs.to_vec();
+        if self.initial != inputs {
+            self.initial = inputs.to_vec();
+            // The machine was started with others, or with none.
+            self.player.machine = None;
+        }
     }
 
     /// The program with all terms that are known.

@@ -57,6 +57,8 @@ pub struct SessionOptions {
     pub limits: Limits,
     /// What a timeline shows; its terms are part of the scene's program. None: there is no timeline.
     pub watched: Option<Arc<Watched>>,
+    /// A scenario first waits in its initial state, as a model does; else before its name, whose move sets that state.
+    pub begins: bool,
 }
 
 /// What a session waits for.

@@ -55,12 +55,25 @@ pub(crate) fn run(
     let mut past: VecDeque<(Saved, Option<SplitMix>, Moment)> = VecDeque::new();
     let mut moment = Moment::new(play.machine().snapshot());
     moment.next = play.next_place();
+    if options.begins {
+        play.advance();
+        if interrupt.cause().is_some() {
+            return;
+        }
+        let unset = std::mem::replace(&mut moment, Moment::new(play.machine().snapshot()));
+        take_in(&mut moment, &unset, &play, script, &mut ran);
+    }
     let recorder = options.watched.as_ref();
     let mut recorder =
         recorder.map(|watched| Recorder::new(watched, &scene.program, Player::new(options.limits.clone())));
+    // What the scenario gives before its first step is given for the initial state.
+    let mut initial = Vec::new();
     let mut show = |moment: &Moment| {
-        if let Some(recorder) = &mut recorder {
-            recorder.note(&shared.tape, moment, &[]);
+        if moment.step == 0 {
+            initial.clone_from(&moment.inputs);
+        }
+        if let (Some(recorder), false) = (&mut recorder, moment.next == Some(script.span)) {
+            recorder.note(&shared.tape, moment, &initial);
         }
         shared.set_moment(moment.clone());
     };

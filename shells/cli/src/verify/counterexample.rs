@@ -18,6 +18,7 @@ use crate::files::{Unfinished, write_text};
 use crate::report::page_of;
 use crate::shell::Shell;
 use crate::tracefile::TraceFile;
+use crate::verify::tell::Scripts;
 
 /// Writes the first counterexample to a file, or all of them into a folder.
 pub fn write(
@@ -95,16 +96,7 @@ impl Writer<'_> {
     ) -> Result<(), Failure> {
         let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
         let model = relative(self.model, folder);
-        let name = name.replace('-', "_");
-        let text = groundstate::counterexample_scenario(self.program, trace, subject, &name, &model);
-        let text = match subject {
-            Subject::Property(index) if index >= self.properties => {
-                let property = &self.program.properties[index];
-                let is_invariant = property.kind == PropertyKind::Invariant;
-                if is_invariant { with_invariant(&text, &property.name) } else { text }
-            }
-            _ => text,
-        };
+        let text = script(self.program, self.properties, (subject, trace), name, &model);
         let mut file = Unfinished::create(path)?;
         file.write_all(text.as_bytes()).map_err(|error| Failure::of_file("write", path, error))?;
         file.finish()
@@ -136,6 +128,34 @@ impl Writer<'_> {
         }
         file.finish()
     }
+}
+
+/// The scenario of a counterexample. `properties` of those of the program stand in the model itself; `model` is what it loads.
+fn script(
+    program: &Program,
+    properties: usize,
+    (subject, trace): (Subject, &Trace),
+    name: &str,
+    model: &str,
+) -> String {
+    let text = groundstate::counterexample_scenario(program, trace, subject, &name.replace('-', "_"), model);
+    match subject {
+        Subject::Property(index) if index >= properties => {
+            let property = &program.properties[index];
+            let is_invariant = property.kind == PropertyKind::Invariant;
+            if is_invariant { with_invariant(&text, &property.name) } else { text }
+        }
+        _ => text,
+    }
+}
+
+/// Writes counterexamples as scenarios beside the model; without a file of the model there are none.
+pub fn scripts<'a>(model: &Path, program: &'a Program, properties: usize) -> Option<Box<Scripts<'a>>> {
+    let file = model.file_name().filter(|_| model.as_os_str() != "-")?.to_string_lossy().into_owned();
+    Some(Box::new(move |subject, trace| {
+        let name = named(program, subject, &mut Vec::new());
+        Some(script(program, properties, (subject, trace), &name, &file))
+    }))
 }
 
 /// LIMIT: a file name shows at most this many characters of a formula.

@@ -287,6 +287,12 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
         let limits = shell.global.limits.uninterrupted();
         teller.words.story = Some(system::story(system, limits, (&program, &sources)));
     }
+    if shell.json() {
+        teller.scenario = match &system {
+            Some(system) => system::scripts(&arguments.model, system, (&program, &sources)),
+            None => counterexample::scripts(&arguments.model, &program, loaded.model.properties.len()),
+        };
+    }
     teller.assumed(shell, &assumed)?;
     let mut live = Live::new(shell, &teller, watch);
     let job = job::verify(request, Cancel::from(interrupt::request().clone()), solver, checkpoint, live::impatience());

@@ -13,7 +13,7 @@ use groundstate::inputs::verification::Verification;
 use groundstate::job::{self, Cancel, VerifyEvent};
 use groundstate::tell::{Story, Verdicts};
 use groundstate::verify::temporal::fairness::AgentFairness;
-use groundstate::verify::{NoSolvers, Options, Outcome, Report, Request, Subject};
+use groundstate::verify::{NoSolvers, Options, Outcome, Report, Request, Subject, Trace};
 use groundstate::{Overlay, VerifiedSystem};
 use machine::Limits;
 use program::{Expression, Program, PropertyKind};
@@ -21,7 +21,7 @@ use syntax::Sources;
 
 use super::beside::beside;
 use super::counterexample::{named, relative, with_invariant};
-use super::tell::Teller;
+use super::tell::{Scripts, Teller};
 use super::watch::Watch;
 use super::{Arguments, Engine, Storage, conflict};
 use crate::exit::Exit;
@@ -269,6 +269,36 @@ pub fn story<'a>(system: &'a VerifiedSystem, limits: Limits, asked: (&'a Program
     }))
 }
 
+/// The scenario of a counterexample; `model` is what it loads.
+fn script(
+    (system, (program, sources)): (&VerifiedSystem, (&Program, &Sources)),
+    (subject, trace): (Subject, &Trace),
+    name: &str,
+    model: &str,
+) -> String {
+    let text = groundstate::counterexample_scenario(program, trace, subject, &name.replace('-', "_"), model);
+    match system.scenario_property((program, sources), subject) {
+        Some(property) if !system.is_checked(program, subject) => with_invariant(&text, &property),
+        _ => text,
+    }
+}
+
+/// Writes counterexamples as scenarios beside the ground model, which lies beside the chart.
+pub fn scripts<'a>(
+    chart: &Path,
+    system: &'a VerifiedSystem,
+    (program, sources): (&'a Program, &'a Sources),
+) -> Option<Box<Scripts<'a>>> {
+    let file = chart.file_name()?;
+    let model = PathBuf::from(file).with_extension("asm").display().to_string();
+    Some(Box::new(move |subject, trace| {
+        let name = named(program, subject, &mut Vec::new());
+        let about = (system, (program, sources));
+        // That nothing moves any more is seen in no state of the ground model, whose clock goes on.
+        (subject != Subject::NoDeadlock).then(|| script(about, (subject, trace), &name, &model))
+    }))
+}
+
 /// Writes counterexamples as scenarios of the ground model: the first one to a file, or all of them into a folder.
 pub fn write(
     shell: &mut Shell,
@@ -288,18 +318,13 @@ pub fn write(
             continue;
         }
         let name = named(program, verdict.subject, &mut names);
+        let about = (system, (program.as_ref(), &asked.sources));
         let file = if one { path.to_path_buf() } else { path.join(format!("{name}.avalla")) };
         let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
         std::fs::create_dir_all(folder).map_err(|error| Failure::of_file("write", folder, error))?;
         // The model need not be there yet; the chart is.
         let loaded = PathBuf::from(relative(chart, folder)).with_extension("asm").display().to_string();
-        let scenario = name.replace('-', "_");
-        let text = groundstate::counterexample_scenario(program, trace, verdict.subject, &scenario, &loaded);
-        let text = match system.scenario_property((program, &asked.sources), verdict.subject) {
-            Some(property) if !system.is_checked(program, verdict.subject) => with_invariant(&text, &property),
-            _ => text,
-        };
-        write_text(&file, &text)?;
+        write_text(&file, &script(about, (verdict.subject, trace), &name, &loaded))?;
         written.push(file);
         if one {
             break;

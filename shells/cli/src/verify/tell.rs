@@ -17,12 +17,17 @@ use crate::shell::Shell;
 /// Prints the results of a verification.
 pub struct Teller<'a> {
     pub words: Verdicts<'a>,
+    /// The run of a violation as a scenario that lies beside the model.
+    pub scenario: Option<Box<Scripts<'a>>>,
 }
+
+/// Writes the run that violates a check as a scenario; none where no scenario makes it.
+pub type Scripts<'a> = dyn Fn(Subject, &Trace) -> Option<String> + 'a;
 
 impl<'a> Teller<'a> {
     /// Prints the results of a search over a program. `timed_out`: the search stopped because its time was up.
     pub fn new(program: &'a Program, sources: &'a Sources, timed_out: bool) -> Self {
-        Teller { words: Verdicts::new(program, sources, timed_out) }
+        Teller { words: Verdicts::new(program, sources, timed_out), scenario: None }
     }
 }
 
@@ -53,7 +58,11 @@ impl Teller<'_> {
                     writeln!(shell.out(), "{}, as shown above", self.words.line(verdict, report))?;
                 }
             } else if shell.json() {
-                shell.object(&wire::Verdict::new(&self.words, verdict, report))?;
+                let mut line = wire::Verdict::new(&self.words, verdict, report);
+                if let Outcome::Violated(trace) = &verdict.outcome {
+                    line.scenario = self.script(verdict.subject, trace);
+                }
+                shell.object(&line)?;
             } else if let Outcome::Violated(trace) = &verdict.outcome {
                 self.violated(shell, verdict.subject, trace)?;
             } else if shell.talks() || !matches!(verdict.outcome, Outcome::Holds) {
@@ -100,10 +109,16 @@ impl Teller<'_> {
         Ok(())
     }
 
+    fn script(&self, subject: Subject, trace: &Trace) -> Option<String> {
+        self.scenario.as_ref().and_then(|script| script(subject, trace))
+    }
+
     /// Prints a violation.
     pub fn violated(&self, shell: &mut Shell, subject: Subject, trace: &Trace) -> Result<(), Failure> {
         if shell.json() {
-            return shell.object(&wire::Verdict::violated(&self.words, subject, trace));
+            let mut line = wire::Verdict::violated(&self.words, subject, trace);
+            line.scenario = self.script(subject, trace);
+            return shell.object(&line);
         }
         write!(shell.out(), "{}", self.words.violation(subject, trace))?;
         if let Some(fault) = self.words.diagnose(subject, trace) {
