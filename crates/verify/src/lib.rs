@@ -13,6 +13,7 @@ mod explicit;
 mod explorers;
 pub mod graph;
 mod heed;
+pub mod listing;
 mod options;
 mod partial_order;
 mod plan;

@@ -8,6 +8,7 @@ mod exploration;
 mod first_step;
 mod formula;
 mod interrupt;
+mod listing;
 mod models;
 mod partial_order;
 mod reference;

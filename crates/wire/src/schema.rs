@@ -47,6 +47,8 @@ fn the_schema_of_the_output() {
             all.subschema_for::<Finding<'_>>(),
             all.subschema_for::<Generated>(),
             all.subschema_for::<Goal<'_>>(),
+            all.subschema_for::<Graph>(),
+            all.subschema_for::<GraphState>(),
             all.subschema_for::<Measured>(),
             all.subschema_for::<MetaProperty>(),
             all.subschema_for::<Mutant<'_>>(),

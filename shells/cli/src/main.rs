@@ -26,6 +26,7 @@ mod files;
 mod fmt;
 mod generate;
 mod generate_tests;
+mod graph;
 mod inputs;
 mod interrupt;
 mod limits;
@@ -88,6 +89,8 @@ enum Command {
     Refine(Box<refine::Arguments>),
     /// Look for oddities in a model: rules that never run, values never taken, forgotten cases
     Review(review::Arguments),
+    /// List every state of a small model with the steps between them
+    Graph(graph::Arguments),
     /// Write scenarios that reach the rules, branches, updates, conditions and transitions of a model
     GenerateTests(generate_tests::Arguments),
     /// Put small faults into models and tell which ones no property and no scenario notices
@@ -161,6 +164,7 @@ fn work(arguments: Arguments) -> Exit {
         Command::Verify(arguments) => verify::run(&mut shell, &arguments),
         Command::Refine(arguments) => refine::run(&mut shell, &arguments),
         Command::Review(arguments) => review::run(&mut shell, &arguments),
+        Command::Graph(arguments) => graph::run(&mut shell, &arguments),
         Command::GenerateTests(arguments) => generate_tests::run(&mut shell, &arguments),
         Command::Mutate(arguments) => mutate::run(&mut shell, &arguments),
         Command::Replay(arguments) => replay::run(&mut shell, &arguments),

@@ -84,6 +84,8 @@ fn every_command_writes_what_the_schema_says() {
             "library/refinement/Manage.refine",
         ],
         vec!["refine", "library/refinement/Manage.refine"],
+        vec!["graph", "shells/cli/tests/cmd/graph.in/Counter.asm", "--where", "count > 1"],
+        vec!["graph", "shells/cli/tests/cmd/graph.in/Counter.asm", "--max-states", "2"],
         vec!["review", "shells/cli/tests/cmd/review.in/Door.asm"],
         vec!["review", "shells/cli/tests/cmd/run.in/Clash.asm"],
         vec!["mutate", "shells/cli/tests/cmd/mutate.in/Barrier.asm", "--sample", "9", "--jobs", "1"],

@@ -9,6 +9,7 @@ mod conform;
 pub(crate) mod desk;
 mod generate;
 mod generate_tests;
+mod list;
 mod mutate;
 mod refine;
 mod review;
@@ -33,6 +34,7 @@ pub use generate::{
     Folder, GenerateEvent, GenerateJob, NotGenerated, generate_model, generate_system, machine_of_component,
 };
 pub use generate_tests::{TestsEvent, TestsJob, TestsRequest, generate_tests};
+pub use list::{ListEvent, ListJob, list};
 pub use mutate::{Hands, MutateEvent, MutateJob, Mutated, mutate};
 pub use refine::{RefineEvent, RefineJob, refine};
 pub use review::{ReviewEvent, ReviewJob, ReviewRequest, review};

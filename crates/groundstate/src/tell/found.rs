@@ -9,6 +9,7 @@ use explore::{ChoiceTaken, Told};
 use machine::{Location, Show, Value};
 use syntax::Span;
 use verify::Trace;
+use verify::listing::ListedStep;
 
 use super::Verdicts;
 
@@ -46,6 +47,12 @@ impl Verdicts<'_> {
         let binders = crate::choice_variables(self.program);
         let steps = trace.steps.iter().map(|told| self.step(told, &[], &binders));
         std::iter::once(self.step(&trace.start, &trace.values, &binders)).chain(steps).collect()
+    }
+
+    /// What the first way of a listed step read and chose.
+    pub fn way(&self, step: &ListedStep) -> FoundStep {
+        let told = Told { inputs: step.inputs.clone(), choices: step.choices.clone(), ..Told::default() };
+        self.step(&told, &[], &crate::choice_variables(self.program))
     }
 
     fn step(&self, told: &Told, values: &[(Location, Value)], binders: &BTreeMap<Span, Vec<String>>) -> FoundStep {
