@@ -12,12 +12,16 @@ import './figures.css'
 import './canvas.css'
 import './inspector.css'
 import './panels.css'
+import './script.css'
+import './marks.css'
+import './stategraph.css'
 import './system.css'
 import './code.css'
 import './conflict.css'
 import type { Hello } from '../diagram/protocol'
 import { Canvas } from '../editor/Canvas'
 import type { Chart } from '../editor/chart'
+import { GraphPanel } from '../editor/GraphPanel'
 import { CheckPanel } from '../editor/CheckPanel'
 import { CodePanel } from '../editor/CodePanel'
 import { Dialogs } from '../editor/Dialogs'
@@ -191,6 +195,7 @@ const PANELS: { panel: Panel; icon: string }[] = [
   { panel: 'run', icon: 'play' },
   { panel: 'timeline', icon: 'timeline' },
   { panel: 'check', icon: 'shield' },
+  { panel: 'graph', icon: 'states' },
   { panel: 'times', icon: 'clock' },
   { panel: 'code', icon: 'code' },
 ]
@@ -233,6 +238,7 @@ function Panels({ studio }: { studio: Studio }): ReactNode {
           {panel === 'run' && <RunPanel studio={studio} />}
           {panel === 'timeline' && <TimelinePanel studio={studio} />}
           {panel === 'check' && <CheckPanel studio={studio} />}
+          {panel === 'graph' && <GraphPanel studio={studio} />}
           {panel === 'times' && <Times studio={studio} />}
           {panel === 'code' && <CodePanel studio={studio} />}
         </div>

@@ -44,12 +44,12 @@ export function jobsFor(studio: Studio, uri: string | null): { job: JobKind; act
       const show = (job: JobKind, panel: 'times' | 'code') => ({ job, act: () => studio.store.set({ panel }) })
       const times = system ? [show('times', 'times')] : []
       const program = system && !studio.hello.readOnly ? [start('program')] : []
-      const rest = studio.sibling(file, 'asm') ? [start('check'), onModel('test')] : []
+      const rest = studio.sibling(file, 'asm') ? [start('check'), onModel('test'), onModel('graph'), onModel('review'), onModel('mutate')] : []
       const generate = system ? [start('generate')] : studio.sibling(file, 'asm') ? [onModel('generate')] : []
       return [...(studio.hello.readOnly ? [] : [start('build')]), verify, ...times, ...rest, ...generate, ...program]
     }
     case 'model':
-      return [start('verify'), start('test'), start('review'), start('generate')]
+      return [start('verify'), start('test'), start('graph'), start('review'), start('mutate'), start('generate')]
     case 'scenario':
       return [start('test')]
     default:
@@ -95,6 +95,8 @@ export const jobIcons: Record<JobKind, string> = {
   generate: 'code',
   review: 'search',
   times: 'clock',
+  mutate: 'mutant',
+  graph: 'states',
   program: 'play',
 }
 

@@ -4,7 +4,7 @@ import { expect, test } from 'vitest'
 
 import { frames, functionOf, isControl, lit } from './light'
 import { NOTHING, faultsOn, pickAt, rangesOf, spoken } from './pick'
-import { freeName, scenario } from './record'
+import { freeName } from './record'
 import { match, search } from './search'
 import { box, drawing, line } from './testing'
 
@@ -66,13 +66,9 @@ test('screen readers hear what a shape is and where it leads', () => {
   expect(spoken(machine, 0, words)).toBe('State off, initial,  to on')
 })
 
-test('a session becomes a scenario', () => {
-  const text = scenario('LampRun1', 'Lamp.asm', [
-    { sets: [['pressed', 'true']], updates: [{ location: 'light', after: 'ON' }] },
-    { sets: [], updates: [] },
-  ])
-  expect(text).toBe('scenario LampRun1\n\nload Lamp.asm\n\nset pressed := true;\nstep\ncheck light = ON;\n\nstep\n')
-  expect(freeName('Lamp', ['LampRun1'])).toBe('LampRun2')
+test('a recorded run has a name that no file beside the model has', () => {
+  expect(freeName('Lamp', [])).toBe('LampRun1')
+  expect(freeName('Lamp', ['LampRun1', 'LampRun3'])).toBe('LampRun2')
 })
 
 test('a few letters find a name', () => {

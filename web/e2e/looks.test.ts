@@ -7,6 +7,7 @@ import type { Browser, Page } from 'playwright-core'
 import { afterAll, beforeAll, expect, test } from 'vitest'
 
 import { type Trouble, opened, page as newPage, shape, shot } from './browser'
+import { lampBuilt } from './lamp'
 import { type Served, copied, removed, served } from './served'
 
 const AXE = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8')
@@ -16,7 +17,9 @@ let studio: Served
 const trouble: Trouble = { told: [] }
 
 beforeAll(async () => {
-  studio = await served(copied('examples', 'library'))
+  const folder = copied('examples', 'library')
+  lampBuilt(folder)
+  studio = await served(folder)
   browser = await opened()
 })
 
@@ -88,6 +91,29 @@ const VIEWS: [string, string, (page: Page) => Promise<void>][] = [
       await page.getByRole('button', { name: 'Generate C++' }).last().click()
       await page.locator('.currency.good').waitFor({ timeout: 30_000 })
       await page.locator('.text-pane .cm-line', { hasText: 'portions' }).first().click()
+    },
+  ],
+  [
+    'coverage',
+    '#/Lamp.chart',
+    async (page) => {
+      await shape(page, 'on').waitFor()
+      await page.getByRole('button', { name: 'More to do with this file' }).click()
+      await page.getByRole('menuitem', { name: 'Test', exact: true }).click()
+      await page.locator('.box.uncovered').first().waitFor({ timeout: 30_000 })
+    },
+  ],
+  [
+    'stategraph',
+    '#/examples/mutual_exclusion/Peterson.asm',
+    async (page) => {
+      await page.getByRole('tab', { name: 'State graph' }).click()
+      await page.getByRole('button', { name: 'Draw the states of Peterson.asm' }).click()
+      await page.locator('.graph-dot').first().waitFor({ timeout: 30_000 })
+      await page.locator('.graph-picture').focus()
+      await page.keyboard.press('Home')
+      await page.keyboard.press('ArrowRight')
+      await page.locator('.graph-state').waitFor()
     },
   ],
   [

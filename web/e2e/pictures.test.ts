@@ -7,6 +7,8 @@ import type { Browser, Page } from 'playwright-core'
 import { afterAll, beforeAll, test } from 'vitest'
 
 import { type Trouble, drag, middle, opened, page as newPage, shape } from './browser'
+import { DOOR, MODEL } from './door'
+import { lampBuilt } from './lamp'
 import { type Served, copied, removed, served } from './served'
 import { small } from './small'
 
@@ -124,6 +126,32 @@ test('checking', async () => {
   await page.getByRole('button', { name: /Play its/ }).first().click()
   for (let step = 0; step < 3; step++) await page.getByRole('button', { name: 'One step on' }).click()
   await kept(page, 'studio-checking')
+  await page.context().close()
+})
+
+test('the state graph', async () => {
+  writeFileSync(join(studio.folder, 'Door.chart'), DOOR)
+  writeFileSync(join(studio.folder, 'Door.asm'), MODEL)
+  const page = await newPage(browser, at('Door.chart'), trouble)
+  await shape(page, 'ajar').waitFor()
+  await page.getByRole('tab', { name: 'State graph' }).click()
+  await page.getByRole('button', { name: 'Draw the states of Door.asm' }).click()
+  await page.locator('.graph-dot').first().waitFor({ timeout: 30_000 })
+  await page.locator('.graph-picture').focus()
+  for (const key of ['Home', 'ArrowRight', 'ArrowRight', 'ArrowRight', 'ArrowRight']) await page.keyboard.press(key)
+  await page.getByRole('button', { name: 'Show all states (F)' }).click()
+  await kept(page, 'studio-graph')
+  await page.context().close()
+})
+
+test('what scenarios covered', async () => {
+  lampBuilt(studio.folder)
+  const page = await newPage(browser, at('Lamp.chart'), trouble)
+  await shape(page, 'on').waitFor()
+  await page.getByLabel('More to do with this file').click()
+  await page.getByRole('menuitem', { name: 'Test', exact: true }).click()
+  await page.locator('.box.uncovered').first().waitFor({ timeout: 30_000 })
+  await kept(page, 'studio-coverage')
   await page.context().close()
 })
 

@@ -84,7 +84,7 @@ function Shown({ studio, chart, drawing }: { studio: Studio; chart: Chart; drawi
   const refusals = useStore(chart.store, (state) => state.refusals)
   const stale = useStore(chart.store, (state) => state.stale)
   const faults = useStore(studio.store, (state) => state.faults.get(uri) ?? NO_FAULTS)
-  const run = useShownRun(studio, drawing)
+  const run = useShownRun(studio, drawing, uri)
   const [moving, setMoving] = useState<Moving | null>(null)
   const [editing, setEditing] = useState<string | null>(null)
   const [drop, setDrop] = useState<Dropped | null>(null)
@@ -103,6 +103,7 @@ function Shown({ studio, chart, drawing }: { studio: Studio; chart: Chart; drawi
     values: run.values,
     faults,
     breaks: run.breaks,
+    covered: run.covered,
     editing,
     readOnly,
   })

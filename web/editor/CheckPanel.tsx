@@ -4,6 +4,7 @@ import { type ReactNode, useEffect, useState } from 'react'
 
 import { words } from '../words'
 import { Icon } from './icons'
+import { MARKED, Marked } from './Marked'
 import { PROGRAM_LINES, ProgramResult, latest } from './ProgramResult'
 import { TimesTables } from './TimesTable'
 import { type Job, type LinePlace, type ScenarioResult, type ToldFault, type Verdict, faultLines, scenarios, timesOf, verdicts } from './jobs'
@@ -109,7 +110,7 @@ function Findings({ studio, job }: { studio: Studio; job: Job }): ReactNode {
   const played = scenarios(job)
   const faults = faultLines(job)
   const times = timesOf(job)
-  const rest = latest(job).filter((line) => typeof line === 'string' || !['verdict', 'scenario', 'summary', 'progress', 'fault', 'times', ...PROGRAM_LINES].includes(String(line['type'])))
+  const rest = latest(job).filter((line) => typeof line === 'string' || !['verdict', 'scenario', 'summary', 'progress', 'fault', 'times', 'graph-state', ...MARKED, ...PROGRAM_LINES].includes(String(line['type'])))
   return (
     <>
       {job.running && job.job !== 'program' && <p className="faint-note doing">{words.check.doing[job.job]}</p>}
@@ -127,6 +128,7 @@ function Findings({ studio, job }: { studio: Studio; job: Job }): ReactNode {
           ))}
         </ul>
       )}
+      <Marked studio={studio} job={job} />
       {times.length > 0 && <TimesTables all={times} />}
       {job.job === 'program' && <ProgramResult job={job} />}
       {faults.length > 0 && (
@@ -139,6 +141,13 @@ function Findings({ studio, job }: { studio: Studio; job: Job }): ReactNode {
       {rest.length > 0 && <Output studio={studio} lines={rest} />}
     </>
   )
+}
+
+// A counterexample as a run of its model: of a system, the model that was built from the chart.
+async function runCounterexample(studio: Studio, job: Job, scenario: string): Promise<void> {
+  const model = job.file.kind === 'chart' ? studio.sibling(job.file, 'asm') : job.file
+  if (model) await studio.runner.openScript(model, scenario)
+  else studio.tell(words.run.noModel(job.file.path.replace(/\.chart$/, '.asm')), 'refused')
 }
 
 const MARK = { holds: ['good', 'check'], violated: ['bad', 'cross'], unknown: ['unknown', 'question'] } as const
@@ -166,6 +175,12 @@ function VerdictLine({ studio, job, verdict }: { studio: Studio; job: Job; verdi
         <button className="small" onClick={() => studio.jobs.play(job.id, verdict.check, 0)}>
           <Icon name="play" size={12} />
           {words.check.trace(steps - 1)}
+        </button>
+      )}
+      {verdict.scenario !== undefined && (
+        <button className="small" title={words.check.runItHint} onClick={() => void runCounterexample(studio, job, verdict.scenario ?? '')}>
+          <Icon name="timeline" size={12} />
+          {words.check.runIt}
         </button>
       )}
     </li>
@@ -220,6 +235,9 @@ function Output({ studio, lines }: { studio: Studio; lines: (string | Record<str
       {lines.slice(-600).map((line, index) => {
         if (typeof line === 'string') return <li key={index}>{line}</li>
         const at = (line['at'] ?? line['place']) as LinePlace | undefined
+        if (line['type'] === 'graph') {
+          return <li key={index}>{words.graph.size(Number(line['states']), Number(line['steps']), line['complete'] === true, typeof line['reason'] === 'string' ? line['reason'] : '')}</li>
+        }
         if (line['type'] === 'explored') return <li key={index}>{words.check.explored(Number(line['states']), line['complete'] === true)}</li>
         const message = line['message'] ?? line['text'] ?? null
         const told =

@@ -9,6 +9,7 @@ import type { File, SessionState } from '../diagram/protocol'
 import { words } from '../words'
 import { Icon } from './icons'
 import type { Runner, RunState } from './run'
+import { Script } from './Script'
 import { AskedNumber, RecordedStart, SLIDES, Slider, slides } from './inputs'
 import { useStore } from './store'
 import type { Studio } from './studio'
@@ -111,6 +112,7 @@ function Running({ studio, run, session, file }: { studio: Studio; run: RunState
         )}
         {run.recorded !== null && <p className="note">{words.run.recordedFrom(run.recorded.name.split('/').at(-1) ?? '')}</p>}
         {run.broke !== null && <p className="note">{words.run.broke(run.broke)}</p>}
+        {run.script !== null && <Script text={run.script} uri={run.scriptUri} session={session} />}
         <Asked runner={runner} run={run} session={session} />
         <Inputs runner={runner} run={run} />
         <Breaks runner={runner} run={run} />
@@ -135,7 +137,7 @@ function Controls({ studio, run, session }: { studio: Studio; run: RunState; ses
         ? button('pause', words.run.pause, () => runner.pause(), true, true)
         : button('play', words.run.play, () => runner.play(), session.waiting === 'step', true)}
       {button('step', words.run.step, () => void runner.step(), can)}
-      {button('back', words.run.back, () => void runner.back(), session.step > 0 || session.waiting !== 'step')}
+      {button('back', words.run.back, () => void runner.back(), session.step > 0 || session.waiting !== 'step' || session.next !== null)}
       {button('restart', words.run.restart, () => void runner.restart(), true)}
       <select aria-label={words.run.speed} title={words.run.speed} value={run.speed} onChange={(event) => runner.setSpeed(Number(event.target.value))}>
         {[1, 4, 15, 0].map((speed) => (
@@ -145,7 +147,7 @@ function Controls({ studio, run, session }: { studio: Studio; run: RunState; ses
         ))}
       </select>
       <span className="grow" />
-      {button('record', words.run.record, () => void runner.record(), session.step > 0 && run.file?.kind === 'model' && !studio.hello.readOnly)}
+      {button('record', run.script === null ? words.run.record : words.run.keepScript, () => void runner.record(), (session.step > 0 || run.script !== null) && run.file?.kind === 'model' && !studio.hello.readOnly)}
       {button('close', words.run.close, () => void runner.close(), true)}
     </div>
   )

@@ -25,6 +25,7 @@ export interface ShapeData extends Record<string, unknown> {
   row: string | null
   value: string | null
   fault: { severity: string; message: string } | null
+  coverage: { covered: boolean; told: string } | null
   broken: boolean
   editing: boolean
   readOnly: boolean
@@ -46,7 +47,7 @@ export const ShapeNode = memo(function ShapeNode({ data, selected, dragging }: N
   const { box, labels, lit, fault, value } = data
   const ports = hover && !dragging && !data.readOnly && !data.editing ? data.ports : []
   const name =
-    `box ${box.figure}${lit ? ' lit' : ''}${selected ? ' selected' : ''}` + (fault ? ` at-fault ${fault.severity}` : '')
+    `box ${box.figure}${lit ? ' lit' : ''}${selected ? ' selected' : ''}` + (fault ? ` at-fault ${fault.severity}` : '') + (data.coverage ? (data.coverage.covered ? ' covered' : ' uncovered') : '')
   return (
     <div className={name} onPointerEnter={() => setHover(true)} onPointerLeave={() => setHover(false)}>
       {(selected || fault || lit) && (
@@ -63,6 +64,11 @@ export const ShapeNode = memo(function ShapeNode({ data, selected, dragging }: N
         </span>
       )}
       {value !== null && <span className={`value-badge ${value}`}>{value === 'mixed' ? '±' : value === 'true' ? words.canvas.yes : value === 'false' ? words.canvas.no : value}</span>}
+      {data.coverage && (
+        <span className={`coverage-badge ${data.coverage.covered ? 'covered' : 'open'}`} title={data.coverage.told} aria-hidden="true">
+          {data.coverage.covered ? '✓' : '○'}
+        </span>
+      )}
       {data.broken && <span className="break-badge" title={words.run.breakpoint} />}
       {lit && lit.some((agent) => agent !== '') && (
         <span className="agents">

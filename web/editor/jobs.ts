@@ -19,6 +19,8 @@ export interface Verdict {
   at?: LinePlace
   trace?: RunStep[]
   again_from?: number
+  // The counterexample as a scenario beside the model.
+  scenario?: string
 }
 
 // Lines and columns from 1, as the command line counts.
@@ -50,13 +52,24 @@ export interface JobsState {
   shown: number | null
   // The counterexample that is played, and at which step.
   playing: { job: number; check: string; at: number } | null
+  // The state of a state graph that is picked.
+  picked: { job: number; state: number } | null
+}
+
+export interface JobOptions {
+  time?: number
+  first?: boolean
+  seconds?: number
+  pace?: string
+  where?: string[]
+  coverage?: boolean
 }
 
 // LIMIT: of a job with endless output, the last lines are kept.
 const KEPT = 5000
 
 export class Jobs {
-  readonly store = new Store<JobsState>({ jobs: [], shown: null, playing: null })
+  readonly store = new Store<JobsState>({ jobs: [], shown: null, playing: null, picked: null })
   private early = new Map<number, (string | Record<string, unknown>)[]>()
   private ended = new Map<number, number | null>()
 
@@ -65,7 +78,7 @@ export class Jobs {
     studio.server.on<{ job: number; code: number | null }>('studio/done', ({ job, code }) => this.done(job, code))
   }
 
-  async start(job: JobKind, file: File, options: { time?: number; first?: boolean; seconds?: number; pace?: string } = {}): Promise<void> {
+  async start(job: JobKind, file: File, options: JobOptions = job === 'test' ? { coverage: true } : {}): Promise<void> {
     await this.studio.saveAll()
     try {
       const params = { job, path: file.path, options }
@@ -75,8 +88,8 @@ export class Jobs {
       const code = this.ended.get(id)
       this.ended.delete(id)
       const fresh: Job = { id, job, file, running: code === undefined, code: code ?? null, began: Date.now(), lines, progress: null, followed: null, options }
-      this.store.set((state) => ({ jobs: [fresh, ...state.jobs].slice(0, 30), shown: id, playing: null }))
-      this.studio.store.set({ panel: 'check' })
+      this.store.set((state) => ({ jobs: [fresh, ...state.jobs].slice(0, 30), shown: id, playing: null, picked: null }))
+      this.studio.store.set({ panel: job === 'graph' ? 'graph' : 'check' })
       if (code !== undefined) this.after(fresh)
     } catch (error) {
       this.studio.tell((error as Error).message, 'refused')
@@ -116,7 +129,23 @@ export class Jobs {
   }
 
   private after(job: Job): void {
-    this.studio.find(this.findings(job))
+    const told = this.findings(job)
+    const marks = this.studio.marks.texts(job)
+    const all = (found: Map<string, Fault[]>): void => {
+      for (const [uri, faults] of marks) found.set(uri, [...(found.get(uri) ?? []), ...faults])
+      this.studio.find(found)
+    }
+    all(new Map(told))
+    if (job.job === 'test') this.studio.marks.clear()
+    if (marks.size > 0 || job.lines.some((line) => typeof line === 'object' && line['type'] === 'coverage')) {
+      void this.studio.marks.charts(job).then(
+        (charts) => {
+          const newest = this.store.get().jobs.find((other) => !other.running && other.job !== 'graph')
+          if (newest?.id === job.id && charts.size > 0) all(new Map([...told, ...charts]))
+        },
+        (error: Error) => this.studio.tell(error.message, 'refused'),
+      )
+    }
     if (job.job === 'build' || job.job === 'generate' || job.job === 'program') this.studio.redraw()
     this.waiting.get(job.id)?.(job)
     this.waiting.delete(job.id)
@@ -130,7 +159,7 @@ export class Jobs {
       if (!file) continue
       const start = { line: fault.line - 1, character: fault.column - 1 }
       const end = { line: (fault.end_line ?? fault.line) - 1, character: (fault.end_column ?? fault.column) - 1 }
-      const severity = fault.severity === 'warning' ? 'warning' : 'error'
+      const severity = fault.severity === 'warning' || fault.severity === 'note' ? 'warning' : 'error'
       const message = fault.help ? `${fault.message}\nhelp: ${fault.help}` : fault.message
       out.set(file.uri, [...(out.get(file.uri) ?? []), { uri: file.uri, range: { start, end }, severity, message, code: fault.id }])
     }
@@ -164,6 +193,11 @@ export class Jobs {
 
   play(job: number, check: string, at: number): void {
     this.store.set({ playing: { job, check, at } })
+  }
+
+  // Picks a state of a state graph; charts show it.
+  pick(job: number, state: number | null): void {
+    this.store.set({ picked: state === null ? null : { job, state }, playing: null })
   }
 
   leave(): void {

@@ -9,6 +9,7 @@ import { type Point, type Side, floats, guardSides } from '../diagram/geometry'
 import { type Fault, faultsOn, spoken } from '../diagram/pick'
 import type { Box, Drawing, Label } from '../diagram/protocol'
 import { words } from '../words'
+import type { Coverage } from './marks'
 import type { Port, ShapeNodeType } from './ShapeNode'
 
 export interface Known {
@@ -19,6 +20,7 @@ export interface Known {
   values: ReadonlyMap<string, string>
   faults: readonly Fault[]
   breaks: ReadonlySet<string>
+  covered: ReadonlyMap<string, Coverage>
   editing: string | null
   readOnly: boolean
 }
@@ -80,9 +82,11 @@ export function useNodes(known: Known): ShapeNodeType[] {
     const value = known.values.get(box.id) ?? null
     const fault = faults.get(box.id) ?? null
     const broken = known.breaks.has(box.id)
+    const covered = known.covered.get(box.id) ?? null
+    const coverage = covered && { covered: covered.covered, told: covered.covered ? words.marks.covered : words.marks.notCovered(covered.told.join('; ')) }
     const editing = known.editing === box.id
     const [x, y] = [box.x + dx, box.y + dy]
-    const key = `${x} ${y} ${selected} ${lit?.join()} ${row} ${value} ${fault?.severity}${fault?.message} ${broken} ${editing} ${known.readOnly}\n${shown[index]}`
+    const key = `${x} ${y} ${selected} ${lit?.join()} ${row} ${value} ${fault?.severity}${fault?.message} ${coverage?.told} ${broken} ${editing} ${known.readOnly}\n${shown[index]}`
     const old = kept.current.get(box.id)
     if (old?.key === key) {
       next.set(box.id, old)
@@ -107,7 +111,7 @@ export function useNodes(known: Known): ShapeNodeType[] {
       // A frame lies behind arrows and shapes, and is taken at its edge or its words.
       zIndex: frame ? -2 : selected ? 2 : floats(box.figure) ? 0 : 1,
       ...(frame && { style: { pointerEvents: 'none' as const } }),
-      ariaLabel: names[index],
+      ariaLabel: coverage ? `${names[index]}, ${coverage.told}` : names[index],
       data: {
         box,
         labels: labels[index] ?? [],
@@ -116,6 +120,7 @@ export function useNodes(known: Known): ShapeNodeType[] {
         row,
         value,
         fault: fault && { severity: fault.severity, message: fault.message },
+        coverage,
         broken,
         editing,
         readOnly: known.readOnly,

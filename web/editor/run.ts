@@ -1,9 +1,9 @@
 // Running a model by hand or at a speed: one session of the server, its states, breakpoints, what is recorded.
 //
-// Owns: the session and its last answer, inputs that were set, the steps for a recording, values of guards. INVARIANT: the engine
+// Owns: the session and its last answer, inputs that were set, values of guards. INVARIANT: the engine
 // alone makes steps; here nothing is computed but when to ask for the next.
 
-import { type Recorded, freeName, scenario } from '../diagram/record'
+import { freeName } from '../diagram/record'
 import { closedTerm, controlOf, isControl, stateOf } from '../diagram/light'
 import type { Drawing, File, SessionState } from '../diagram/protocol'
 import { words } from '../words'
@@ -27,6 +27,10 @@ export interface RunState {
   seed: number | null
   // A file of inputs that the run takes.
   recorded: RecordedInputs | null
+  // The scenario that is played, if it is in no file.
+  script: string | null
+  // What the server calls that text.
+  scriptUri: string
 }
 
 export interface RecordedInputs {
@@ -46,6 +50,8 @@ const NONE: RunState = {
   values: new Map(),
   seed: null,
   recorded: null,
+  script: null,
+  scriptUri: '',
 }
 
 const FAST_STEPS = 200
@@ -53,25 +59,27 @@ const FAST_STEPS = 200
 export class Runner {
   readonly store = new Store<RunState>(NONE)
   private timer: ReturnType<typeof setTimeout> | undefined
-  private steps: Recorded[] = []
-  private given: [string, string][] = []
   private readonly offered = new Map<string, string[]>()
   private readonly ends = new Map<string, [number, number]>()
 
   constructor(private readonly studio: Studio) {}
 
   // Begins a run of a model or a scenario.
-  async open(file: File, seed: number | null = null, recorded: RecordedInputs | null = null): Promise<void> {
+  async open(file: File, seed: number | null = null, recorded: RecordedInputs | null = null, script: string | null = null): Promise<void> {
     await this.close()
-    this.store.set({ busy: true, file, seed, recorded })
+    this.store.set({ busy: true, file, seed, recorded, script })
     this.studio.store.set({ panel: 'run' })
     this.studio.besideModel(file.uri)
     try {
-      const params = { textDocument: { uri: file.uri }, ...(seed === null ? {} : { seed }), ...(recorded === null ? {} : { inputs: recorded }) }
+      const params = {
+        textDocument: { uri: file.uri },
+        begins: true,
+        ...(seed === null ? {} : { seed }),
+        ...(recorded === null ? {} : { inputs: recorded }),
+        ...(script === null ? {} : { scenario: script }),
+      }
       const session = await this.studio.ask<SessionState>('groundstate/session/open', params)
-      this.steps = []
-      this.given = []
-      this.store.set({ sets: new Map(), broke: null })
+      this.store.set({ sets: new Map(), broke: null, scriptUri: session.next?.uri ?? '' })
       this.took(session)
     } catch (error) {
       this.store.set({ file: null })
@@ -79,6 +87,12 @@ export class Runner {
     } finally {
       this.store.set({ busy: false })
     }
+  }
+
+  // Plays the text of a scenario that is in no file, on this model.
+  async openScript(model: File, script: string): Promise<void> {
+    this.studio.jobs.leave()
+    await this.open(model, null, null, script)
   }
 
   // What an input may be, as it was offered when it was asked for.
@@ -121,25 +135,14 @@ export class Runner {
     }
   }
 
-  private note(before: number, answer: SessionState | null): void {
-    if (!answer || answer.step <= before) return
-    this.steps.push({ sets: this.given, updates: answer.updates })
-    this.given = []
-  }
-
   async step(): Promise<SessionState | null> {
-    const before = this.store.get().session?.step ?? 0
     this.store.set({ broke: null })
-    const answer = await this.ask('step', { steps: 1 })
-    this.note(before, answer)
-    return answer
+    return this.ask('step', { steps: 1 })
   }
 
   async back(): Promise<void> {
     this.pause()
-    const before = this.store.get().session?.step ?? 0
-    const answer = await this.ask('back', {})
-    if (answer && answer.step < before) this.steps.length = Math.min(this.steps.length, answer.step)
+    await this.ask('back', {})
     this.store.set({ broke: null })
   }
 
@@ -160,25 +163,16 @@ export class Runner {
     const sets = new Map(this.store.get().sets)
     if (value === null) sets.delete(location)
     else sets.set(location, value)
-    const before = this.store.get().session?.step ?? 0
     const answer = await this.ask('set', { location, value })
-    if (!answer || answer.refused) return
-    this.store.set({ sets })
-    if (value !== null) this.given.push([location, value])
-    // If it was asked for, the step has been made with it.
-    this.note(before, answer)
+    if (answer && !answer.refused) this.store.set({ sets })
   }
 
   async answer(value: string): Promise<void> {
-    const { session } = this.store.get()
-    const before = session?.step ?? 0
-    if (session?.word) this.given.push([session.word, value])
-    this.note(before, await this.ask('answer', { value }))
+    await this.ask('answer', { value })
   }
 
   async choose(candidate: number): Promise<void> {
-    const before = this.store.get().session?.step ?? 0
-    this.note(before, await this.ask('choose', { candidate }))
+    await this.ask('choose', { candidate })
   }
 
   play(): void {
@@ -201,12 +195,7 @@ export class Runner {
 
   private async fast(): Promise<SessionState | null> {
     const { breaks } = this.store.get()
-    const before = this.store.get().session?.step ?? 0
-    if (breaks.length === 0) {
-      const answer = await this.ask('step', { steps: FAST_STEPS })
-      this.note(before, answer)
-      return answer
-    }
+    if (breaks.length === 0) return this.ask('step', { steps: FAST_STEPS })
     await this.studio.server.request('groundstate/session/breaks', { session: this.store.get().session?.session, terms: breaks })
     return this.ask('resume', { steps: FAST_STEPS })
   }
@@ -244,10 +233,10 @@ export class Runner {
   }
 
   async restart(): Promise<void> {
-    const { file, seed, recorded } = this.store.get()
+    const { file, seed, recorded, script } = this.store.get()
     // A file of inputs may be another by now.
     const inputs = recorded && (await this.inputs(recorded.name))
-    if (file) await this.open(file, seed, inputs ?? recorded)
+    if (file) await this.open(file, seed, inputs ?? recorded, script)
   }
 
   // The text of a file of inputs.
@@ -265,7 +254,7 @@ export class Runner {
     this.pause()
     const { session } = this.store.get()
     this.clearMarks()
-    this.store.set({ session: null, file: null, values: new Map(), broke: null })
+    this.store.set({ session: null, file: null, values: new Map(), broke: null, script: null })
     if (!session) return
     this.studio.store.set({ beside: 'chart' })
     try {
@@ -283,7 +272,7 @@ export class Runner {
 
   // What the session did so far as a scenario beside the model.
   async record(): Promise<void> {
-    const { file } = this.store.get()
+    const { file, script } = this.store.get()
     if (!file || file.kind !== 'model') return
     const folder = file.path.slice(0, file.path.lastIndexOf('/') + 1)
     const model = file.path.slice(folder.length).replace(/\.asm$/, '')
@@ -292,12 +281,21 @@ export class Runner {
       .files.filter((other) => other.path.startsWith(folder))
       .map((other) => other.path.slice(folder.length).replace(/\.[^.]*$/, ''))
     const name = freeName(model, taken)
-    if (await this.studio.write(`${folder}${name}.avalla`, scenario(name, `${model}.asm`, this.steps)))
+    const text = script ?? (await this.written(name, `${model}.asm`))
+    if (text === null) return
+    if (await this.studio.write(`${folder}${name}.avalla`, text))
       this.studio.tell(words.run.recorded(name))
   }
 
-  get recorded(): number {
-    return this.steps.length
+  // The run as the server writes it: with what was given and chosen, by hand or at random.
+  private async written(name: string, model: string): Promise<string | null> {
+    try {
+      const params = { session: this.store.get().session?.session, name, model }
+      return (await this.studio.server.request<{ text: string }>('groundstate/session/scenario', params)).text
+    } catch (error) {
+      this.studio.tell((error as Error).message, 'refused')
+      return null
+    }
   }
 
   // Guards of the drawings that are shown.

@@ -15,6 +15,7 @@ import { words } from '../words'
 import { Chart } from './chart'
 import { Doc } from './document'
 import { Jobs } from './jobs'
+import { Marks } from './marks'
 import { Runner } from './run'
 import { sanitized } from './sanitize'
 import { quiet } from './quiet'
@@ -22,7 +23,7 @@ import type { Server, Transport } from './server'
 import { Store } from './store'
 
 export type Layout = 'both' | 'picture' | 'text'
-export type Panel = 'problems' | 'run' | 'timeline' | 'check' | 'times' | 'code'
+export type Panel = 'problems' | 'run' | 'timeline' | 'check' | 'graph' | 'times' | 'code'
 export type Dialog =
   | { kind: 'search' }
   | { kind: 'new' }
@@ -144,6 +145,7 @@ export class Studio {
   readonly client: LSPClient
   readonly runner: Runner
   readonly jobs: Jobs
+  readonly marks: Marks
   private readonly docs = new Map<string, Doc>()
   private readonly charts = new Map<string, Chart>()
   private readonly opening = new Map<string, Promise<Doc | null>>()
@@ -169,6 +171,7 @@ export class Studio {
     })
     this.runner = new Runner(this)
     this.jobs = new Jobs(this)
+    this.marks = new Marks(this)
     this.store.set({ online: server.online, hello, files: hello.files })
     this.transport = quiet(server.transport)
     this.client.connect(this.transport)
@@ -325,6 +328,7 @@ export class Studio {
       this.docs.set(uri, doc)
       doc.onText.push(() => {
         if (this.found.delete(uri)) this.merge(uri)
+        this.marks.drop(uri)
       })
       if (file.kind === 'chart') this.charts.set(uri, new Chart(this, doc))
       const faults = this.store.get().faults.get(uri)

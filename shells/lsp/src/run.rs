@@ -116,8 +116,12 @@ pub fn answer(
         return Ok(Value::Null);
     }
     let mut open = sessions.open.remove(&id).ok_or_else(|| wrong(format!("there is no session {id}")))?;
-    if let "evaluate" | "timeline" = method {
-        let told = if method == "evaluate" { open.values(params) } else { open.timeline() };
+    if let "evaluate" | "timeline" | "scenario" = method {
+        let told = match method {
+            "evaluate" => open.values(params),
+            "timeline" => open.timeline(),
+            _ => open.scenario(params),
+        };
         sessions.open.insert(id, open);
         return told;
     }
@@ -240,6 +244,15 @@ impl Open {
         };
         let values: Vec<Option<String>> = terms.iter().map(shown).collect();
         Ok(serde_json::json!({ "values": values }))
+    }
+
+    /// The run so far as a scenario.
+    fn scenario(&self, params: &Value) -> Result<Value, Refused> {
+        let (Some(name), Some(model)) = (params["name"].as_str(), params["model"].as_str()) else {
+            return Err(wrong("`name` and `model` are texts"));
+        };
+        let text = self.session.scenario(name, model).map_err(failed)?;
+        Ok(serde_json::json!({ "text": text }))
     }
 
     /// The lanes of the run so far, as the page of a report has them.

@@ -1,6 +1,6 @@
-//! Files of inputs beside a model: which there are, and their texts.
+//! Files beside a model: inputs with their texts, scenarios.
 //!
-//! In: the path of a model, or of one of these files. Out: names, or a text; nothing is written. LIMIT: files that are listed.
+//! In: the path of a model, or of a file of inputs. Out: names, or a text; nothing is written. LIMIT: files that are listed.
 
 use std::path::Path;
 
@@ -23,6 +23,18 @@ fn is_input(name: &str) -> bool {
 /// # Errors
 /// It is no model of the folder; a sentence.
 pub fn list(folder: &Folder, model: &str) -> Result<Value, String> {
+    Ok(json!({ "files": beside(folder, model, is_input)? }))
+}
+
+/// The scenarios in the folder of a model.
+///
+/// # Errors
+/// It is no model of the folder; a sentence.
+pub fn scenarios(folder: &Folder, model: &str) -> Result<Vec<String>, String> {
+    beside(folder, model, |name| Kind::of(Path::new(name)) == Some(Kind::Scenario))
+}
+
+fn beside(folder: &Folder, model: &str, wanted: impl Fn(&str) -> bool) -> Result<Vec<String>, String> {
     if Kind::of(Path::new(model)) != Some(Kind::Model) {
         return Err(format!("`{}` is no model", model.escape_debug()));
     }
@@ -33,10 +45,10 @@ pub fn list(folder: &Folder, model: &str) -> Result<Value, String> {
     let names = entries.filter(|entry| entry.file_type().is_ok_and(|kind| kind.is_file()));
     let names = names.filter_map(|entry| entry.file_name().to_str().map(str::to_string));
     let path = |name: String| if home.is_empty() { name } else { format!("{home}/{name}") };
-    let mut found: Vec<String> = names.filter(|name| is_input(name) && !name.starts_with('.')).map(path).collect();
+    let mut found: Vec<String> = names.filter(|name| wanted(name) && !name.starts_with('.')).map(path).collect();
     found.sort();
     found.truncate(FILES);
-    Ok(json!({ "files": found }))
+    Ok(found)
 }
 
 /// The text of one.

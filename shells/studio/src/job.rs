@@ -25,6 +25,9 @@ const AT_A_TIME: usize = 4;
 const SECONDS: u64 = 3_600;
 /// LIMIT: lines of a process that are handed on.
 const LINES: usize = 20_000;
+/// LIMIT: terms of a job, and bytes of each.
+const TERMS: usize = 8;
+const TERM: usize = 10_000;
 /// LIMIT: bytes of a line.
 const LINE: u64 = 4 << 20;
 /// How often it is looked whether a process has ended.
@@ -171,8 +174,14 @@ pub fn words(job: &str, path: &str, options: &Value) -> Result<Vec<String>, Stri
         "build" if is_chart => &["chart", "build"],
         "generate" if is_chart || kind == Some(Kind::Model) => &["generate", "cpp"],
         "review" if kind == Some(Kind::Model) => &["review"],
-        "verify" | "test" | "build" | "generate" | "review" | "times" => {
-            let what = if job == "times" { "time" } else { job };
+        "mutate" if kind == Some(Kind::Model) => &["mutate"],
+        "graph" if kind == Some(Kind::Model) => &["graph"],
+        "verify" | "test" | "build" | "generate" | "review" | "times" | "mutate" | "graph" => {
+            let what = match job {
+                "times" => "time",
+                "graph" => "draw a state graph of",
+                _ => job,
+            };
             return Err(format!("there is nothing to {what} in {path}"));
         }
         _ => return Err(format!("`{}` is no job", job.escape_debug())),
@@ -190,12 +199,24 @@ pub fn words(job: &str, path: &str, options: &Value) -> Result<Vec<String>, Stri
                 words.push("--first".to_string());
             }
         }
+        "graph" => {
+            let terms = options["where"].as_array().map(Vec::as_slice).unwrap_or_default();
+            let terms = terms.iter().filter_map(Value::as_str).filter(|term| term.len() <= TERM);
+            // One word: what begins with `-` is a term.
+            words.extend(terms.take(TERMS).map(|term| format!("--where={term}")));
+        }
+        "test" if options["coverage"].as_bool() == Some(true) => words.push("--coverage".to_string()),
         "generate" => words.extend(["-o".to_string(), format!("./{stem}.generated")]),
         _ => {}
     }
     // What a model imports may lie anywhere; the studio shows one folder.
     words.extend(["--within", ".", "--format", "json"].map(str::to_string));
     Ok(words)
+}
+
+/// The same of a model whose scenarios are played: these are named, not the model.
+pub fn of_scenarios(words: &mut Vec<String>, scenarios: &[String]) {
+    words.splice(1..2, scenarios.iter().map(|path| format!("./{path}")));
 }
 
 /// Starts a process whose output is read here.
@@ -392,6 +413,23 @@ mod tests {
         assert_eq!(check("times", "a.chart", json!({})), Ok("chart times ./a.chart --within . --format json".into()));
         assert_eq!(check("times", "a.asm", json!({})), Err("there is nothing to time in a.asm".into()));
         assert_eq!(check("test", "", json!({})), Ok("test ./ --within . --format json".into()));
+        assert_eq!(
+            check("graph", "a.asm", json!({ "where": ["-x > 1", 3, "--help"], "max": 9 })),
+            Ok("graph ./a.asm --where=-x > 1 --where=--help --within . --format json".into())
+        );
+        assert_eq!(
+            check("test", "a.asm", json!({ "coverage": true, "junit": "/etc/x" })),
+            Ok("test ./a.asm --coverage --within . --format json".into())
+        );
+        assert_eq!(check("test", "a/b.avalla", json!({})), Ok("test ./a/b.avalla --within . --format json".into()));
+        let mut played = words("test", "b/a.asm", &json!({})).expect("a model");
+        of_scenarios(&mut played, &["b/-x.avalla".to_string(), "b/y.avalla".to_string()]);
+        assert_eq!(played.join(" "), "test ./b/-x.avalla ./b/y.avalla --within . --format json");
+        assert_eq!(check("mutate", "a.asm", json!({})), Ok("mutate ./a.asm --within . --format json".into()));
+        assert_eq!(
+            check("graph", "a.chart", json!({})),
+            Err("there is nothing to draw a state graph of in a.chart".into())
+        );
         assert_eq!(check("build", "a.asm", json!({})), Err("there is nothing to build in a.asm".into()));
         assert_eq!(check("rm -rf", "a.asm", json!({})), Err("`rm -rf` is no job".into()));
     }

@@ -2,6 +2,7 @@
 //!
 //! In: a method and parameters as JSON. Out: the answer as JSON, or a sentence for the user. It may wait for the disk.
 
+use std::path::Path;
 use std::sync::Arc;
 
 use groundstate::Kind;
@@ -103,7 +104,14 @@ pub fn answer(
                 let work = move |task: &job::Task| program::run(task, &own.folder, &plan);
                 return Ok(json!({ "job": studio.jobs.start_work(tab, out.clone(), work)? }));
             }
-            let words = job::words(job, path, &params["options"])?;
+            let mut words = job::words(job, path, &params["options"])?;
+            if job == "test" && Kind::of(Path::new(path)) == Some(Kind::Model) {
+                let scenarios = inputs::scenarios(&studio.folder, path)?;
+                if scenarios.is_empty() {
+                    return Err(format!("there are no scenarios beside {path}"));
+                }
+                job::of_scenarios(&mut words, &scenarios);
+            }
             let number = studio.jobs.start(tab, &words, out.clone())?;
             Ok(json!({ "job": number }))
         }

@@ -12,6 +12,7 @@ mod scenario;
 mod scene;
 mod shared;
 mod tape;
+mod written;
 
 use std::cell::RefCell;
 use std::collections::BTreeMap;
@@ -168,6 +169,17 @@ impl Session {
     /// The lanes of the run so far; none if nothing is watched, or as long as the initial state is being set.
     pub fn timeline(&self) -> Option<Report> {
         self.shared.tape.report(self.watched.as_ref()?, &self.scene.program.name)
+    }
+
+    /// The run so far as a scenario of this name; `model` is what it loads.
+    ///
+    /// # Errors
+    /// A sentence: it is a scenario already, no step was made, or more than are kept.
+    pub fn scenario(&self, name: &str, model: &str) -> Result<String, String> {
+        match &self.scene.script {
+            Some(_) => Err("this run is one of a scenario already".to_string()),
+            None => self.shared.notes.scenario(&self.scene.program, name, model),
+        }
     }
 
     /// Whether it asks for an input or a choice.

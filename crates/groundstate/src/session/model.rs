@@ -9,6 +9,7 @@ use std::rc::Rc;
 use std::sync::Arc;
 
 use machine::{Interrupt, Limits, Location, Snapshot, Value};
+use program::Program;
 use simulate::{Bounds, Choices, End, Inputs, Invariants, Named, Options, RandomSource, Record, Run, StepRecord};
 
 use crate::diagnose_record;
@@ -50,7 +51,8 @@ pub(crate) fn run(
     let recorder = options.watched.as_ref();
     let recorder = recorder.map(|watched| Recorder::new(watched, &scene.program, Player::new(options.limits.clone())));
     let (history, initial, said) = (options.history, Vec::new(), Vec::new());
-    let mut thread = Thread { shared, history, ran, past, first, initial, player, recorder, said };
+    let program = Arc::clone(&scene.program);
+    let mut thread = Thread { shared, history, ran, past, first, initial, player, recorder, program, said };
     let mut initial = true;
     loop {
         // The initial state is made before the first pause.
@@ -96,6 +98,7 @@ struct Thread<'a> {
     initial: Vec<(Location, Value)>,
     player: Player,
     recorder: Option<Recorder>,
+    program: Arc<Program>,
     /// What breaks have said.
     said: Vec<(u64, String)>,
 }
@@ -167,6 +170,10 @@ impl Thread<'_> {
 
     /// From now on this is the present moment.
     fn show(&mut self, moment: Moment) {
+        // What could not be made is no step of a scenario.
+        if moment.end.is_none() {
+            self.shared.notes.note(&self.program, &moment);
+        }
         if let Some(recorder) = &mut self.recorder {
             recorder.note(&self.shared.tape, &moment, &self.initial);
         }

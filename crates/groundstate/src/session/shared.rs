@@ -7,6 +7,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use crate::session::breaks::Breaks;
 use crate::session::moment::Moment;
 use crate::session::tape::Tape;
+use crate::session::written::Notes;
 
 /// What the thread of a session and its owner share.
 #[derive(Debug, Default)]
@@ -14,6 +15,8 @@ pub(crate) struct Shared {
     moment: Mutex<Option<Arc<Moment>>>,
     /// What a timeline is made of.
     pub tape: Tape,
+    /// What a scenario of the run is made of.
+    pub notes: Notes,
     breaks: Mutex<Arc<Breaks>>,
 }
 

@@ -1,0 +1,211 @@
+// What jobs found in a model, on its text and on the chart beside it: findings of a review, mutants that nobody noticed, what scenarios
+// covered.
+//
+// In: the lines of a job. Out: faults of texts, and marks of shapes, until the text is another. INVARIANT: a shape is called covered only
+// if places of the model are known to speak of it, and nothing of them was left out by the scenarios.
+
+import { functionOf } from '../diagram/light'
+import { type Around, type Shapes, meant, shapesAt } from '../diagram/places'
+import type { Drawing, File, Position, Range } from '../diagram/protocol'
+import { words } from '../words'
+import type { Fault } from '../diagram/pick'
+import type { Job, LinePlace, ToldFault } from './jobs'
+import { Store } from './store'
+import type { Studio } from './studio'
+
+export interface Coverage {
+  covered: boolean
+  // What is missing.
+  told: string[]
+}
+
+// By drawing and shape.
+export type Covered = ReadonlyMap<string, ReadonlyMap<string, Coverage>>
+
+export interface Mutant extends LinePlace {
+  operator: string
+  outcome: string
+  before: string[]
+  after: string[]
+  why?: string
+  states?: number
+}
+
+interface Uncovered extends LinePlace {
+  what: string
+  rule: string
+}
+
+export interface CoverageLine {
+  model: string
+  totals: { kind: string; covered: number; total: number }[]
+  uncovered: Uncovered[]
+}
+
+const lines = (job: Job, type: string): Record<string, unknown>[] => job.lines.filter((line): line is Record<string, unknown> => typeof line === 'object' && line['type'] === type)
+
+export const findings = (job: Job): { meta: string; finding: ToldFault }[] => lines(job, 'finding') as unknown as { meta: string; finding: ToldFault }[]
+export const mutants = (job: Job): Mutant[] => lines(job, 'mutant') as unknown as Mutant[]
+export const coverages = (job: Job): CoverageLine[] => lines(job, 'coverage') as unknown as CoverageLine[]
+
+const squeezed = (text: string[]): string => text.join(' ').replace(/\s+/g, ' ').trim()
+
+export const mutantTold = (mutant: Mutant): string => words.marks.survived(mutant.operator, squeezed(mutant.before), squeezed(mutant.after))
+
+export const rangeOf = (place: LinePlace): Range => ({
+  start: { line: place.line - 1, character: place.column - 1 },
+  end: { line: (place.end_line ?? place.line) - 1, character: (place.end_column ?? place.column) - 1 },
+})
+
+interface Found {
+  range: Range
+  message: string
+  severity: Fault['severity']
+  code: string
+  // Of what was not covered: which part of its rule.
+  what: string
+}
+
+interface SelectionRange {
+  range: Range
+  parent?: SelectionRange
+}
+
+// LIMIT: places of a model that are looked at.
+const PLACES = 4_000
+
+const before = (a: Position, b: Position): boolean => a.line < b.line || (a.line === b.line && a.character <= b.character)
+
+// That no branch was taken says nothing of what is in the branches.
+const isBeside = (item: Found): boolean => item.what === 'branch `no branch`'
+
+// Whether what was not covered says something of the shapes. That the machine was in no other state says nothing of this one; and that
+// a state is left for itself changes nothing, so no scenario covers the update.
+function speaks(what: string, shapes: Shapes, drawings: readonly Drawing[]): boolean {
+  if (what === 'branch `no branch`') return meant(shapes) !== shapes.state
+  const [, written, value] = /^`([A-Za-z_]\w*)[^:=]*:=\s*([A-Za-z_]\w*)`$/.exec(what) ?? []
+  if (written === undefined || shapes.state === null) return true
+  const light = drawings.find((drawing) => drawing.name === shapes.drawing)?.lights[0]
+  return !(light && functionOf(light.term) === written && light.shapes.some((shape) => shape.value === value && shape.shape === shapes.state))
+}
+
+export class Marks {
+  // The coverage of charts, by their URIs.
+  readonly covered = new Store<{ of: ReadonlyMap<string, Covered> }>({ of: new Map() })
+
+  constructor(private readonly studio: Studio) {}
+
+  // What a job found, by the files that it is in.
+  texts(job: Job): Map<string, Fault[]> {
+    const out = new Map<string, Fault[]>()
+    for (const [uri, found] of this.found(job)) out.set(uri, found.map(({ range, message, severity, code }) => ({ uri, range, message, severity, code })))
+    return out
+  }
+
+  private found(job: Job): Map<string, Found[]> {
+    const out = new Map<string, Found[]>()
+    const note = (place: LinePlace, message: string, severity: Fault['severity'], code: string, what = ''): void => {
+      const file = this.studio.named(place.file)
+      if (file) out.set(file.uri, [...(out.get(file.uri) ?? []), { range: rangeOf(place), message, severity, code, what }])
+    }
+    for (const { finding } of findings(job)) note(finding, finding.help ? `${finding.message}\nhelp: ${finding.help}` : finding.message, 'warning', finding.id)
+    for (const mutant of mutants(job)) if (mutant.outcome === 'survived') note(mutant, mutantTold(mutant), 'warning', mutant.operator)
+    for (const { uncovered } of coverages(job)) for (const item of uncovered) note(item, words.marks.uncovered(item.what, item.rule), 'info', 'uncovered', item.what)
+    return out
+  }
+
+  // The same on the charts of the models: faults on shapes, and coverage.
+  async charts(job: Job): Promise<Map<string, Fault[]>> {
+    const out = new Map<string, Fault[]>()
+    const found = this.found(job)
+    const covers = coverages(job).map(({ model }) => this.studio.named(model)?.uri)
+    const of = new Map<string, Covered>()
+    for (const uri of new Set([...found.keys(), ...covers])) {
+      const model = uri === undefined ? undefined : this.studio.file(uri)
+      const chart = model && this.studio.sibling(model, 'chart')
+      const drawings = chart && this.studio.chart(chart.uri)?.store.get().pictures?.drawings
+      if (!model || !chart || !drawings) continue
+      const items = found.get(model.uri) ?? []
+      const told = items.filter(({ code }) => code !== 'uncovered')
+      const shapes = await this.shapes(model, drawings, told.map(({ range }) => range.start))
+      const faults = told.flatMap((one, index): Fault[] => {
+        const range = this.onChart(drawings, shapes[index] ?? null)
+        return range ? [{ uri: chart.uri, range, message: one.message, severity: one.severity, code: one.code }] : []
+      })
+      if (faults.length > 0) out.set(chart.uri, faults)
+      if (covers.includes(model.uri)) of.set(chart.uri, await this.coverage(model, drawings, items.filter(({ code }) => code === 'uncovered')))
+    }
+    if (job.job === 'test') this.covered.set({ of })
+    return out
+  }
+
+  // The coverage of a chart goes with the text that it was of.
+  drop(uri: string): void {
+    const { of } = this.covered.get()
+    const chart = this.studio.file(uri)?.kind === 'model' ? uri.replace(/\.asm$/, '.chart') : uri
+    if (of.has(chart)) this.covered.set({ of: new Map([...of].filter(([known]) => known !== chart)) })
+  }
+
+  clear(): void {
+    if (this.covered.get().of.size > 0) this.covered.set({ of: new Map() })
+  }
+
+  private onChart(drawings: readonly Drawing[], shapes: Shapes | null): Range | null {
+    const id = shapes && meant(shapes)
+    const drawing = shapes && drawings.find((drawing) => drawing.name === shapes.drawing)
+    return (id && drawing?.picture.boxes.find((box) => box.id === id)?.range) || null
+  }
+
+  private async coverage(model: File, drawings: readonly Drawing[], missing: Found[]): Promise<Covered> {
+    const doc = await this.studio.document(model.uri)
+    if (!doc) return new Map()
+    const at: Position[] = []
+    doc.text.split('\n').forEach((text, line) => {
+      for (const word of text.replace(/\/\/.*$/, '').matchAll(/\b(?:if|case|rule)\b|\br_\w+\s*\[/g)) at.push({ line, character: word.index })
+    })
+    if (at.length > PLACES) return new Map()
+    const known = await this.shapes(model, drawings, at)
+    const all = new Map<string, Map<string, Coverage>>()
+    const note = (shapes: Shapes | null, told: string | null): void => {
+      if (!shapes) return
+      const drawing = all.get(shapes.drawing) ?? new Map<string, Coverage>()
+      all.set(shapes.drawing, drawing)
+      // What is missing within a guard or an action is missing in its state, too.
+      for (const id of new Set([meant(shapes), shapes.state])) {
+        if (id === null) continue
+        const former = drawing.get(id) ?? { covered: true, told: [] }
+        drawing.set(id, told === null || former.told.includes(told) ? former : { covered: false, told: [...former.told, told] })
+      }
+    }
+    known.forEach((shapes, index) => {
+      note(shapes, null)
+      const here = at[index]
+      // The parts of what never ran are not told one by one.
+      for (const item of missing) if (!isBeside(item) && here && before(item.range.start, here) && before(here, item.range.end)) note(shapes, item.message)
+    })
+    const own = await this.shapes(model, drawings, missing.map(({ range }) => range.start))
+    own.forEach((shapes, index) => {
+      const item = missing[index]
+      if (shapes && item && speaks(item.what, shapes, drawings)) note(shapes, item.message)
+    })
+    return all
+  }
+
+  // The shapes that places of a model speak of.
+  private async shapes(model: File, drawings: readonly Drawing[], positions: Position[]): Promise<(Shapes | null)[]> {
+    const doc = positions.length > 0 ? await this.studio.document(model.uri) : null
+    if (!doc) return []
+    const chains = await this.studio.ask<(SelectionRange | null)[] | null>('textDocument/selectionRange', { textDocument: { uri: model.uri }, positions })
+    const text = doc.text
+    return (chains ?? []).map((chain) => {
+      const around: Around[] = []
+      let inner = -1
+      for (let part: SelectionRange | undefined | null = chain; part; part = part.parent) {
+        const [from, to] = [doc.offsetAt(part.range.start), doc.offsetAt(part.range.end)]
+        around.push({ text: text.slice(from, to), inner: inner < 0 ? 0 : inner - from })
+        inner = from
+      }
+      return shapesAt(drawings, around)
+    })
+  }
+}
