@@ -7,6 +7,7 @@ import type { Branch, JobKind, Kind, Shape } from './diagram/protocol'
 
 const shapes: Record<Shape | 'enter' | 'exit', string> = {
   state: 'State',
+  composite: 'Composite state',
   guard: 'Guard',
   action: 'Action',
   instance: 'Pattern',
@@ -192,6 +193,8 @@ export const words = {
   },
   inspector: {
     label: 'Properties',
+    within: 'Inside',
+    withinNone: 'no composite state',
     name: 'Name',
     nameHint: 'Used in the text; renamed in all files',
     text: 'Shown text',
@@ -396,6 +399,10 @@ export const words = {
     former: 'Of the text before:',
     noTimes: 'No times yet:',
     timing: 'Runs',
+    writer: 'From',
+    readers: 'To',
+    reader: (index: number) => `Reader ${index}`,
+    about: (name: string) => `Channel of: ${name}`,
     synchronous: 'every period',
     asynchronous: 'when data come',
     period: 'Period',

@@ -72,7 +72,7 @@ export class Exported {
       case 'groundstate/session/breaks':
         return this.state(Number(params.session))
       case 'groundstate/session/evaluate':
-        return { values: (params.terms as string[]).map(() => null) }
+        return { values: (params.terms as string[]).map((term) => this.value(Number(params.session), term)) }
       case 'groundstate/session/close':
         this.sessions.delete(Number(params.session))
         return null
@@ -85,6 +85,13 @@ export class Exported {
     const session = this.sessions.get(Number(params.session))
     if (session) session.at = Math.max(0, Math.min(session.states.length - 1, session.at + steps))
     return this.state(Number(params.session))
+  }
+
+  // What a guard was at this step of the recording; null where that is not in it.
+  private value(number: number, term: string): string | null {
+    const session = this.sessions.get(number)
+    const values = session?.states[session.at]?.['values'] as Record<string, string> | undefined
+    return values?.[term] ?? null
   }
 
   private state(number: number): unknown {

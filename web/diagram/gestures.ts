@@ -22,6 +22,38 @@ export function move(drawing: Drawing, by: ReadonlyMap<string, Point>): Operatio
   return Object.keys(places).length > 0 ? { kind: 'move', places } : null
 }
 
+// The composite states that a shape stands in, from the innermost out.
+export function holders(drawing: Drawing, id: string): string[] {
+  const out: string[] = []
+  for (let at: string | null | undefined = id; at; ) {
+    at = drawing.picture.boxes.find((box) => box.id === at)?.within
+    if (at) out.push(at)
+  }
+  return out
+}
+
+// Moves shapes, and puts them into the composite state on whose frame they are let go. A frame follows the shapes that it holds, so out of
+// it they go only if that is `meant`.
+export function moveInto(drawing: Drawing, by: ReadonlyMap<string, Point>, meant: boolean): Operation | null {
+  const operation = move(drawing, by)
+  if (operation?.kind !== 'move') return operation
+  const frames = drawing.picture.boxes.filter((box) => box.figure === 'composite')
+  frames.sort((a, b) => a.width * a.height - b.width * b.height)
+  const moved = Object.entries(operation.places).filter(([id]) => id !== 'enter')
+  const under = ([x, y]: readonly [number, number]): string | null =>
+    frames.find((frame) => x > frame.x && x < frame.x + frame.width && y > frame.y && y < frame.y + frame.height)?.id ?? null
+  const into = moved[0] ? under(moved[0][1]) : null
+  const goes = moved.filter(([id, at]) => {
+    const around = holders(drawing, id)
+    return under(at) === into && (around[0] ?? null) !== into && (meant || (into !== null && !around.includes(into)))
+  })
+  return goes.length > 0 ? { kind: 'nest', ids: goes.map(([id]) => id), into, places: operation.places } : operation
+}
+
+// The composite states that a shape may be put into.
+export const frames = (drawing: Drawing, box: Box): string[] =>
+  drawing.picture.boxes.filter((other) => other.figure === 'composite' && other.id !== box.id && !holders(drawing, other.id).includes(box.id)).map((other) => other.id)
+
 // What changes properties leaves the places to the layout, if the text has none.
 const UNPLACED: Operation['kind'][] = ['layout', 'machine', 'set', 'addPhase', 'removePhase', 'movePhase', 'addAge']
 
@@ -131,6 +163,7 @@ export function toolsFor(kind: Drawing['kind']): Tool[] {
       ]
     : [
         { shape: 'state', key: 's' },
+        { shape: 'composite', key: 'c' },
         { shape: 'guard', key: 'g' },
         { shape: 'action', key: 'a' },
         { shape: 'instance', key: 'i' },

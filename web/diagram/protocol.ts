@@ -104,6 +104,8 @@ export interface Box {
   link: string | null
   refine: null | { by: string | null }
   of: string | null
+  // The composite state that it stands in.
+  within?: string | null
   opens: null | { uri: string; name: string }
   range: Range | null
   nameRange: Range | null
@@ -214,6 +216,8 @@ export type PropertyName =
   | 'tick'
   | 'processors'
   | 'age'
+  | 'writer'
+  | 'phaseSubject'
   | 'phaseTime'
   | 'phaseName'
   | 'phaseMachine'
@@ -233,7 +237,7 @@ export interface Pictures {
 
 // Operations on a drawing.
 
-export type Shape = 'state' | 'guard' | 'action' | 'instance' | 'component' | 'channel' | 'sensor' | 'actuator'
+export type Shape = 'state' | 'composite' | 'guard' | 'action' | 'instance' | 'component' | 'channel' | 'sensor' | 'actuator'
 
 export interface Arrow {
   from: string
@@ -262,6 +266,7 @@ export type Operation =
   | { kind: 'link'; id: string; link: string | null }
   | { kind: 'refine'; id: string; refine: null | { by: string | null } }
   | { kind: 'initial'; id: string }
+  | { kind: 'nest'; ids: string[]; into: string | null; places?: Record<string, [number, number]> }
   | { kind: 'machine'; name: string; pattern: boolean; title: string }
   | { kind: 'layout' }
   | { kind: 'paste'; shapes: PastedShape[]; arrows: Arrow[] }

@@ -1,5 +1,6 @@
 // An exported project: charts, runs and verdicts without a program behind them; nothing can be changed.
 
+import { execFileSync } from 'node:child_process'
 import { writeFileSync } from 'node:fs'
 import { join } from 'node:path'
 
@@ -18,8 +19,9 @@ beforeAll(async () => {
   const folder = copied('examples/mutual_exclusion')
   writeFileSync(
     join(folder, 'Lamp.chart'),
-    'chart Lamp\n\nmachine lamp "Lamp"\n\tcontrol light\n\tinitial state off "Off"\n\tstate on "On"\n\tguard pressed "Pressed"\n\toff -> pressed yes -> on\n\ton -> pressed\n\tpressed no -> off\nendmachine\n',
+    'chart Lamp\n\nmachine lamp "Lamp"\n\tcontrol light\n\tinitial state off "Off"\n\tstate on "On"\n\tguard pressed "Pressed"\n\tguard bright "Bright" {light = ON}\n\toff -> pressed yes -> on\n\ton -> bright yes -> off\n\tpressed no -> off\n\tbright no -> on\nendmachine\n',
   )
+  execFileSync(process.env['GROUNDSTATE'] ?? join(import.meta.dirname, '../../target/debug/groundstate'), ['chart', 'build', 'Lamp.chart'], { cwd: folder })
   site = await exported(folder)
   browser = await opened()
 })
@@ -55,6 +57,24 @@ test('a recorded run is stepped through', async () => {
   await page.keyboard.press('Shift+F10')
   await page.locator('.run-step', { hasText: 'Step 0' }).waitFor()
   await shot(page, 'exported-run')
+  expect(trouble.told).toEqual([])
+  await page.context().close()
+})
+
+test('the guards of a recorded run have their values on the chart', async () => {
+  trouble.told = []
+  page = await newPage(browser, `${site.address}#/Lamp.chart`, trouble)
+  await shape(page, 'off').waitFor()
+  await page.keyboard.press('F5')
+  await page.locator('.state-table').waitFor()
+  await shape(page, 'bright').locator('.value-badge.false').waitFor()
+  for (let step = 0; step < 30 && !(await shape(page, 'bright').locator('.value-badge.true').isVisible()); step++) {
+    await page.keyboard.press('F10')
+    await page.waitForTimeout(40)
+  }
+  await shape(page, 'bright').locator('.value-badge.true').waitFor()
+  await shape(page, 'on').locator('.box.lit').waitFor()
+  await shot(page, 'exported-guards')
   expect(trouble.told).toEqual([])
   await page.context().close()
 })

@@ -67,9 +67,10 @@ test('what scenarios covered is marked on the shapes, until the model is another
   await covered('held', 'covered').waitFor({ timeout: 20_000 })
   expect(await page.locator('.box.uncovered').count()).toBe(0)
   // Of another text nothing is known.
-  writeFileSync(path('Lamp.asm'), readFileSync(path('Lamp.asm'), 'utf8').replace('light := OFF', 'light := ON'))
+  const model = readFileSync(path('Lamp.asm'), 'utf8')
+  writeFileSync(path('Lamp.asm'), model.replace('light := OFF', 'light := ON'))
   await page.locator('.box.covered').first().waitFor({ state: 'detached' })
-  writeFileSync(path('Lamp.asm'), readFileSync(path('Lamp.asm'), 'utf8').replace('light := ON', 'light := OFF'))
+  writeFileSync(path('Lamp.asm'), model)
 })
 
 test('mutants that nobody notices are marked on the shapes and lead to their place', async () => {

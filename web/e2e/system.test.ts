@@ -6,7 +6,7 @@ import { join } from 'node:path'
 import type { Browser, Page } from 'playwright-core'
 import { afterAll, afterEach, beforeAll, beforeEach, expect, test } from 'vitest'
 
-import { type Trouble, opened, page as newPage, shape, shot } from './browser'
+import { type Trouble, drag, middle, onArrow, opened, page as newPage, shape, shot } from './browser'
 import { type Served, copied, removed, served } from './served'
 
 const AXIS = `chart Axis
@@ -256,4 +256,58 @@ test('inputs have sliders and switches, and come from a file', async () => {
     await until(async () => (await sum.textContent())?.includes(expected) === true, () => `a sum of ${expected}`)
   }
   await shot(page, 'inputs-recorded')
+})
+
+const THREE = `chart Three
+
+system three "Three"
+	tick 0.5 ms
+	component look "Look" synchronous period 10 ms
+		elaborate scan 2 ms
+		write seen 0.5 ms
+	endcomponent
+	component plan "Plan" synchronous period 20 ms
+		read seen 0.5 ms
+		elaborate think 3 ms
+		write route 0.5 ms
+	endcomponent
+	component act "Act" synchronous period 20 ms
+		read route 0.5 ms
+		elaborate move 1 ms
+	endcomponent
+	component log "Log" synchronous period 50 ms
+		read route 1 ms
+		elaborate keep 1 ms
+	endcomponent
+	channel seen from look to plan swinging buffer 2 master look
+	channel route from plan to act, log queue 4
+endsystem
+`
+
+test('the ends of a channel and what a phase reads are changed in the properties, and by an arrow’s end', async () => {
+  writeFileSync(path('Three.chart'), THREE)
+  await open('Three.chart')
+  await shape(page, 'log').click()
+  await page.getByLabel('Channel of: read route').selectOption('seen')
+  await has('Three.chart', 'read seen 1 ms')
+  await has('Three.chart', 'channel seen from look to plan, log swinging buffer')
+  await has('Three.chart', 'channel route from plan to act queue 4')
+  await shape(page, 'seen').click()
+  await page.getByLabel('Reader 2').selectOption('act')
+  await has('Three.chart', 'channel seen from look to plan, act swinging buffer')
+  await page.getByLabel('From', { exact: true }).selectOption('log')
+  await has('Three.chart', 'channel seen from log to plan, act swinging buffer 2 master log')
+  // What was drawn has no fault.
+  await page.locator('.panel-tabs .count').waitFor({ state: 'detached' })
+  await shot(page, 'channel-ends')
+  // Its writer is dragged back to where it was.
+  await page.keyboard.press('Escape')
+  const [x, y] = await onArrow(page, 'Arrow from Log to seen')
+  await page.mouse.click(x, y)
+  // The first hold is the arrow's beginning.
+  const grip = page.locator('.hold').first()
+  await drag(page, await middle(grip), await middle(shape(page, 'look')))
+  await has('Three.chart', 'channel seen from look to plan, act swinging buffer 2 master look')
+  await page.keyboard.press('Control+z')
+  await has('Three.chart', 'channel seen from log to plan, act')
 })

@@ -8,7 +8,7 @@ import { type KeyboardEvent, type PointerEvent, type ReactNode, useCallback, use
 
 import { GRID, snappedCorner } from '../diagram/arrange'
 import { type Point, arrowPath, border } from '../diagram/geometry'
-import { move } from '../diagram/gestures'
+import { move, moveInto } from '../diagram/gestures'
 import type { Fault } from '../diagram/pick'
 import { NOTHING } from '../diagram/pick'
 import type { Drawing, Line, Shape as ShapeKind } from '../diagram/protocol'
@@ -192,8 +192,8 @@ function Shown({ studio, chart, drawing }: { studio: Studio; chart: Chart; drawi
   )
 
   const commit = useCallback(
-    (by: ReadonlyMap<string, Point>) => {
-      const operation = move(drawing, by)
+    (by: ReadonlyMap<string, Point>, dropped?: { ctrlKey: boolean; metaKey: boolean }) => {
+      const operation = dropped ? moveInto(drawing, by, dropped.ctrlKey || dropped.metaKey) : move(drawing, by)
       if (operation) void chart.operate(operation)
       else setMoving(null)
     },
@@ -270,8 +270,8 @@ function Shown({ studio, chart, drawing }: { studio: Studio; chart: Chart; drawi
           nodes={nodes}
           nodeTypes={NODE_TYPES}
           onNodesChange={changed}
-          onNodeDragStop={() => commit(offsets)}
-          onSelectionDragStop={() => commit(offsets)}
+          onNodeDragStop={(event) => commit(offsets, event)}
+          onSelectionDragStop={(event) => commit(offsets, event)}
           onNodeDoubleClick={(_, node) => open(node.id)}
           onNodeContextMenu={(event, node) => {
             event.preventDefault()

@@ -4,7 +4,7 @@
 
 import { type ReactNode, useEffect, useId, useState } from 'react'
 
-import { arrowOf } from '../diagram/gestures'
+import { arrowOf, frames } from '../diagram/gestures'
 import { faultsOn } from '../diagram/pick'
 import type { Box, Drawing } from '../diagram/protocol'
 import { words } from '../words'
@@ -138,6 +138,9 @@ function OneBox({ studio, chart, drawing, box, naming }: OneBoxProps): ReactNode
           flip={() => void set({ kind: 'initial', id: box.id })}
         />
       )}
+      {!system && !ends && box.nameRange && (box.within || frames(drawing, box).length > 0) && (
+        <Within chart={chart} drawing={drawing} box={box} readOnly={readOnly} />
+      )}
       {(box.figure === 'hexagon' || box.figure === 'rectangle') && (
         <>
           <Switch
@@ -193,6 +196,29 @@ function OneBox({ studio, chart, drawing, box, naming }: OneBoxProps): ReactNode
           {words.inspector.inText}
         </button>
       )}
+    </div>
+  )
+}
+
+// The composite state that a shape stands in.
+function Within({ chart, drawing, box, readOnly }: { chart: Chart; drawing: Drawing; box: Box; readOnly: boolean }): ReactNode {
+  const id = useId()
+  return (
+    <div className="field">
+      <label htmlFor={id}>{words.inspector.within}</label>
+      <select
+        id={id}
+        value={box.within ?? ''}
+        disabled={readOnly}
+        onChange={(event) => void chart.operate({ kind: 'nest', ids: [box.id], into: event.target.value === '' ? null : event.target.value })}
+      >
+        <option value="">{words.inspector.withinNone}</option>
+        {frames(drawing, box).map((frame) => (
+          <option key={frame} value={frame}>
+            {frame}
+          </option>
+        ))}
+      </select>
     </div>
   )
 }

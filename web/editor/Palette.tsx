@@ -30,6 +30,7 @@ export interface Tool {
 
 const FIGURES: Record<ShapeKind, [Figure, number, number]> = {
   state: ['circle', 68, 68],
+  composite: ['composite', 130, 110],
   guard: ['hexagon', 120, 44],
   action: ['rectangle', 110, 40],
   instance: ['block', 130, 48],

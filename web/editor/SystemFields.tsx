@@ -95,7 +95,7 @@ export function SystemFields({ studio, chart, id, system }: Context & { system: 
     case 'component':
       return <ComponentFields {...all} part={part} system={system} />
     case 'channel':
-      return <ChannelFields {...all} part={part} />
+      return <ChannelFields {...all} part={part} system={system} />
     case 'device':
       return <DomainField {...all} part={part} />
   }
@@ -172,7 +172,23 @@ function Phases({ part, channels, ...all }: Context & { acting: Acting; part: Co
           return (
             <li key={`${at} ${name}`}>
               <div className="phase-head">
-                <span className="phase-name">{name}</span>
+                {phase.verb !== 'elaborate' && phase.subject !== null && !readOnly ? (
+                  <span className="phase-name">
+                    {words.system.verbs[phase.verb ?? 'read']}{' '}
+                    <select
+                      className="mono"
+                      aria-label={words.system.about(name)}
+                      value={phase.subject}
+                      onChange={(event) => void acting.act('phases', { kind: 'set', id, property: 'phaseSubject', at, value: event.target.value })}
+                    >
+                      {[...new Set([phase.subject, ...channels.filter(({ other }) => (phase.verb === 'write' ? other.from === id : other.from !== id)).map(({ name }) => name)])].map((channel) => (
+                        <option key={channel}>{channel}</option>
+                      ))}
+                    </select>
+                  </span>
+                ) : (
+                  <span className="phase-name">{name}</span>
+                )}
                 {!readOnly && (
                   <>
                     {button('up', words.system.earlier(name), { kind: 'movePhase', id, at, to: at - 1 }, at > 0)}
@@ -235,19 +251,32 @@ function NewPhase({ id, acting, channels }: { id: string; acting: Acting; channe
   )
 }
 
-function ChannelFields({ part, ...all }: Context & { acting: Acting; part: ChannelText }): ReactNode {
+function ChannelFields({ part, system, ...all }: Context & { acting: Acting; part: ChannelText; system: SystemText }): ReactNode {
   const { id, acting, chart } = all
+  const components = Object.entries(system.parts).flatMap(([name, other]) => (other.part === 'component' ? [name] : []))
+  // Each component is at one end at most.
+  const free = (end: string | null): [string, string][] => components.filter((name) => name === end || (name !== part.from && !part.readers.includes(name))).map((name) => [name, name])
   const ends = [part.from, ...part.readers].filter((end) => end !== null)
   return (
     <>
-      <div className="pair">
-        <span className="key">{words.inspector.from}</span>
-        <code>{part.from}</code>
-      </div>
-      <div className="pair">
-        <span className="key">{words.inspector.to}</span>
-        <code>{part.readers.join(', ')}</code>
-      </div>
+      <Choice
+        label={words.system.writer}
+        value={part.from}
+        values={free(part.from)}
+        disabled={chart.doc.readOnly}
+        pick={(value) => void acting.act('ends', { kind: 'set', id, property: 'writer', value })}
+      />
+      {part.readers.map((reader, index) => (
+        <Choice
+          key={reader}
+          label={part.readers.length > 1 ? words.system.reader(index + 1) : words.system.readers}
+          value={reader}
+          values={free(reader)}
+          disabled={chart.doc.readOnly}
+          pick={(to) => void acting.act('ends', { kind: 'redirect', from: id, branch: null, to: reader, new: { from: id, branch: null, to } })}
+        />
+      ))}
+      <Told reason={acting.refused.get('ends') ?? null} />
       <Choice
         label={words.system.made}
         value={part.made}

@@ -76,6 +76,20 @@ mod tests {
     }
 
     #[test]
+    fn a_channel_of_several_readers_has_one_place() {
+        let component = |name: &str, phase: &str| {
+            format!("\tcomponent {name} synchronous period 10 ms\n\t\t{phase} data\n\tendcomponent\n")
+        };
+        let parts = [component("a", "write"), component("b", "read"), component("c", "read")].concat();
+        let text =
+            format!("chart S\n\nsystem s\n\ttick 1 ms\n{parts}\tchannel data from a to b, c queue 2\nendsystem\n");
+        let once = placed(&text);
+        assert_eq!(once.matches("data at ").count(), 1, "{once}");
+        // It is read again as it was written, and nothing is left to place.
+        assert_eq!(placed(&once), once);
+    }
+
+    #[test]
     fn places_are_added_and_kept() {
         let text = "chart Door\n\nmachine door\n\tcontrol position\n\tinitial state closed\n\tstate open\n\tguard handle\n\
                     \tclosed -> handle yes -> open\nendmachine\n\nlayout door\n\topen at 300, -40 // far\nendlayout\n";

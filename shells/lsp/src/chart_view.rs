@@ -12,7 +12,7 @@ use groundstate::Kind;
 use ide::{Centre, Fresh, FreshKind, Joint, Operation};
 use lsp_server::ErrorCode;
 use serde_json::{Map, Value, json};
-use syntax::ast::{AstNode, ChartFile};
+use syntax::ast::{AstNode, ChartFile, Shape};
 use syntax::{FileId, Span, parse_chart};
 
 use crate::answer::Answers;
@@ -98,6 +98,8 @@ struct Declaration {
     whole: (u32, u32),
     text: Option<String>,
     link: Option<String>,
+    /// The composite state that it stands in.
+    within: Option<String>,
 }
 
 impl Declared {
@@ -117,7 +119,9 @@ impl Declared {
                 let link = shape.link().map(|link| link.syntax().text().to_string());
                 let link =
                     link.map(|link| link.trim().trim_start_matches('{').trim_end_matches('}').trim().to_string());
-                let one = Declaration { whole: bytes(shape.syntax()), text: shape.text(), link };
+                let within = shape.around().and_then(|around| Shape::Composite(around).name());
+                let within = within.map(|name| name.text().to_string());
+                let one = Declaration { whole: bytes(shape.syntax()), text: shape.text(), link, within };
                 declared.shapes.insert((name.text().to_string(), own.text().to_string()), one);
             }
         }
@@ -126,7 +130,7 @@ impl Declared {
             declared.sections.insert(name.text().to_string(), bytes(system.syntax()));
             let mut add = |own: Option<syntax::SyntaxToken>, node: &syntax::SyntaxNode, text: Option<String>| {
                 if let Some(own) = own {
-                    let one = Declaration { whole: bytes(node), text, link: None };
+                    let one = Declaration { whole: bytes(node), text, ..Declaration::default() };
                     declared.shapes.insert((name.text().to_string(), own.text().to_string()), one);
                 }
             };
@@ -240,6 +244,7 @@ impl View<'_> {
             Some(json!({ "uri": uri.as_str(), "name": pattern.name }))
         });
         let refinement = shape.and_then(|shape| shape.refinement.as_ref());
+        let within = own.as_ref().and_then(|own| own.within.clone());
         let of = shape.and_then(|shape| match &shape.kind {
             ShapeKind::Instance(pattern) => Some(pattern.name.clone()),
             ShapeKind::State { .. } | ShapeKind::Composite(_) | ShapeKind::Guard | ShapeKind::Action => None,
@@ -261,6 +266,7 @@ impl View<'_> {
             "link": own.and_then(|own| own.link),
             "refine": refinement.map(|refinement| json!({ "by": refinement.by })),
             "of": of,
+            "within": within,
             "opens": opens,
             "range": range,
             "nameRange": name,
@@ -363,6 +369,14 @@ fn operation_of(value: &Value) -> Result<Operation, Refused> {
             Operation::Refine(needed("id")?, value["refine"].is_object().then_some(by))
         }
         "initial" => Operation::Initial(needed("id")?),
+        "nest" => {
+            let ids = value["ids"].as_array().ok_or_else(|| wrong("`ids` is a list of names"))?;
+            Operation::Nest(
+                ids.iter().filter_map(Value::as_str).map(str::to_string).collect(),
+                text("into"),
+                centres(&value["places"])?,
+            )
+        }
         "machine" => Operation::Machine {
             name: needed("name")?,
             is_pattern: value["pattern"].as_bool().unwrap_or(false),
@@ -399,6 +413,7 @@ fn fresh(value: &Value) -> Result<Fresh, Refused> {
     let text = |key: &str| value[key].as_str().filter(|text| !text.is_empty()).map(str::to_string);
     let kind = match value["shape"].as_str().unwrap_or_default() {
         "state" => FreshKind::State,
+        "composite" => FreshKind::Composite,
         "guard" => FreshKind::Guard,
         "action" => FreshKind::Action,
         "instance" => FreshKind::Instance,

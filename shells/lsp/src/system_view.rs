@@ -185,6 +185,8 @@ pub fn operation_of(value: &Value) -> Result<Option<Operation>, Refused> {
                 "tick" => Property::Tick,
                 "processors" => Property::Processors,
                 "age" => Property::Age(number("at")?),
+                "writer" => Property::Writer,
+                "phaseSubject" => Property::PhaseSubject(number("at")?),
                 "phaseTime" => Property::PhaseTime(number("at")?),
                 "phaseName" => Property::PhaseName(number("at")?),
                 "phaseMachine" => Property::PhaseMachine(number("at")?),

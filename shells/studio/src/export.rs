@@ -16,6 +16,8 @@ use crate::request::{hello, library};
 
 /// LIMIT: steps of a recorded run.
 const STEPS: usize = 60;
+/// LIMIT: guards whose values are in it.
+const GUARDS: usize = 200;
 /// LIMIT: seconds of a verification.
 const SECONDS: u64 = 20;
 /// Where the folder is said to lie.
@@ -83,7 +85,7 @@ fn project(folder: &Folder, jobs: &Jobs, tell: &mut impl FnMut(&str)) -> Result<
             pictures.insert(uri.clone(), picture);
         }
         if matches!(kind.as_str(), "model" | "scenario")
-            && let Some(run) = server.run(&uri)
+            && let Some(run) = server.run(&uri, &files)
         {
             runs.insert(uri.clone(), run);
         }
@@ -165,12 +167,29 @@ impl Server {
         Err("the language server has ended".to_string())
     }
 
-    /// The states of a run, drawn at random by a fixed seed; none of what cannot run.
-    fn run(&mut self, uri: &str) -> Option<Value> {
-        let opened = self.ask("groundstate/session/open", json!({ "textDocument": { "uri": uri }, "seed": 1 })).ok()?;
+    /// The states of a run, drawn at random by a fixed seed, each with the values of the guards of the chart beside the model; none of
+    /// what cannot run.
+    fn run(&mut self, uri: &str, files: &[Value]) -> Option<Value> {
+        let chart = uri.strip_suffix(".asm").map(|stem| format!("{stem}.chart"));
+        let chart = chart.filter(|chart| files.iter().any(|file| file["uri"] == chart.as_str()));
+        let guards = chart.map(|chart| self.guards(&chart)).unwrap_or_default();
+        let params = json!({ "textDocument": { "uri": uri }, "seed": 1, "begins": true });
+        let opened = self.ask("groundstate/session/open", params).ok()?;
         let session = opened["session"].clone();
         let mut states = vec![opened];
-        while states.len() <= STEPS && states.last()?["waiting"] == "step" {
+        loop {
+            let last = states.last_mut()?;
+            if !guards.is_empty()
+                && let Ok(told) =
+                    self.ask("groundstate/session/evaluate", json!({ "session": session, "terms": guards }))
+                && let Some(values) = told["values"].as_array()
+            {
+                let of = guards.iter().cloned().zip(values.iter().cloned());
+                last["values"] = Value::Object(of.filter(|(_, value)| !value.is_null()).collect());
+            }
+            if states.len() > STEPS || states.last()?["waiting"] != "step" {
+                break;
+            }
             match self.ask("groundstate/session/step", json!({ "session": session })) {
                 Ok(state) => states.push(state),
                 Err(_) => break,
@@ -178,6 +197,32 @@ impl Server {
         }
         _ = self.ask("groundstate/session/close", json!({ "session": session }));
         Some(json!(states))
+    }
+
+    /// The terms that the guards of a chart stand for, as the front end asks for them. LIMIT: those that speak of an agent are left out,
+    /// and so are more than can be asked for at once.
+    fn guards(&mut self, chart: &str) -> Vec<String> {
+        let Ok(told) = self.ask("groundstate/chart/picture", json!({ "textDocument": { "uri": chart } })) else {
+            return Vec::new();
+        };
+        let mut terms = Vec::new();
+        for drawing in told["drawings"].as_array().into_iter().flatten() {
+            let for_agents = drawing["lights"][0]["term"].as_str().is_none_or(|term| term.contains('$'));
+            for one in drawing["picture"]["boxes"].as_array().into_iter().flatten() {
+                let link = one["link"].as_str().filter(|link| !link.is_empty());
+                let term = match link {
+                    Some(link) => Some(link).filter(|link| !link.contains('$')),
+                    None => one["id"].as_str().filter(|_| !for_agents),
+                };
+                if let Some(term) = term.filter(|_| one["figure"] == "hexagon").map(str::to_string)
+                    && !terms.contains(&term)
+                {
+                    terms.push(term);
+                }
+            }
+        }
+        terms.truncate(GUARDS);
+        terms
     }
 }
 
@@ -193,10 +238,13 @@ mod tests {
         let chart = "chart B\n\nmachine b\n\tcontrol c\n\tinitial state s\n\tguard g\n\ts -> g yes -> s\nendmachine\n";
         std::fs::write(place.path().join("A.asm"), model).expect("written");
         std::fs::write(place.path().join("B.chart"), chart).expect("written");
+        let guarded = "chart D\n\nmachine d\n\tcontrol c\n\tinitial state s\n\tguard g {x > 1}\n\tguard gone\n\ts -> g yes -> s\n\tg no -> gone yes -> s\nendmachine\n";
+        std::fs::write(place.path().join("D.asm"), model.replace("asm A", "asm D")).expect("written");
+        std::fs::write(place.path().join("D.chart"), guarded).expect("written");
         let folder = Folder::at(place.path()).expect("it is one");
         let jobs = Jobs::new(PathBuf::from("/bin/echo"), folder.root().to_path_buf());
         let (text, count) = project(&folder, &jobs, &mut |_| {}).expect("exported");
-        assert_eq!(count, 2);
+        assert_eq!(count, 4);
         assert!(!text.contains(&*folder.root().to_string_lossy()), "{text}");
         let project: Value = serde_json::from_str(&text).expect("JSON");
         assert_eq!(project["hello"]["readOnly"], true);
@@ -205,5 +253,10 @@ mod tests {
         let run = project["runs"]["file:///project/A.asm"].as_array().expect("a run");
         assert_eq!((run.len(), run[60]["state"]["x"].as_str()), (61, Some("60")));
         assert_eq!(project["results"]["verify A.asm"]["code"], 0);
+        // The guards of the chart beside a model have values; of one that is not there nothing is said.
+        let run = project["runs"]["file:///project/D.asm"].as_array().expect("a run");
+        let told: Vec<&Value> = run.iter().take(3).map(|state| &state["values"]["x > 1"]).collect();
+        assert_eq!(told, ["false", "false", "true"]);
+        assert!(run[0]["values"]["gone"].is_null() && run[0]["values"]["x > 1"].is_string());
     }
 }

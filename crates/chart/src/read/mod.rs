@@ -121,7 +121,13 @@ impl Reader {
             }
             (Some(system), None) if system.name == name.text() => {
                 let components = system.components.iter().map(|component| component.name.as_str());
-                let channels = system.channels.iter().map(|channel| channel.name.as_str());
+                // Those of several readers are drawn as one, and placed by its name.
+                let mut channels: Vec<&str> = Vec::new();
+                for name in system.channels.iter().flat_map(|channel| [&channel.drawn, &channel.name]) {
+                    if !channels.contains(&name.as_str()) {
+                        channels.push(name);
+                    }
+                }
                 components.chain(channels).chain(system.devices.iter().map(|device| device.name.as_str())).collect()
             }
             _ => {

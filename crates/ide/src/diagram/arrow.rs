@@ -65,6 +65,13 @@ impl Work {
 
     /// See [`super::Operation::Redirect`].
     pub(super) fn redirect(&mut self, joint: &Joint, new: &Joint) -> Result<(), String> {
+        if let Some((channel, old, writes)) = self.end_of(&joint.from, &joint.to) {
+            let (kept, new) = if writes { (&new.to, &new.from) } else { (&new.from, &new.to) };
+            if *kept != channel {
+                return Err(format!("this arrow is an end of the channel `{channel}`: its other end stays there"));
+            }
+            return self.set_end(&channel, &old, new, writes);
+        }
         if let Section::Machine(machine) = self.section()?
             && (&joint.from, joint.branch) == (&new.from, new.branch)
         {

@@ -25,18 +25,23 @@ impl Work {
             None => String::new(),
         };
         let section = self.section()?;
-        let in_machine =
-            matches!(fresh.kind, FreshKind::State | FreshKind::Guard | FreshKind::Action | FreshKind::Instance);
+        let in_machine = matches!(
+            fresh.kind,
+            FreshKind::State | FreshKind::Composite | FreshKind::Guard | FreshKind::Action | FreshKind::Instance
+        );
+        let mut placed = None;
         let name = match section {
             Section::Machine(machine) if in_machine => {
                 let (word, kind) = match fresh.kind {
                     FreshKind::State => ("state", CONTROL_STATE),
+                    FreshKind::Composite => ("composite state", COMPOSITE_STATE),
                     FreshKind::Guard => ("guard", GUARD_SHAPE),
                     FreshKind::Action => ("action", ACTION_SHAPE),
                     _ => ("instance", PATTERN_INSTANCE),
                 };
                 let otherwise = match fresh.kind {
                     FreshKind::State => "waiting",
+                    FreshKind::Composite => "working",
                     FreshKind::Guard => "condition",
                     FreshKind::Action => "act",
                     _ => "part",
@@ -47,7 +52,14 @@ impl Work {
                     let of = fresh.of.as_deref().ok_or("say which pattern it is an instance of")?;
                     line = format!("instance {name} of {of}{text}{link}");
                 }
-                if fresh.kind == FreshKind::State {
+                if fresh.kind == FreshKind::Composite {
+                    // A frame lies around what it holds, so it holds something.
+                    let inner = self.fresh_name("begun", "begun")?;
+                    let inner = if inner == name { format!("{inner}1") } else { inner };
+                    line = format!("{line}\n\t\tinitial state {inner}\n\tendstate");
+                    placed = Some(inner);
+                }
+                if matches!(fresh.kind, FreshKind::State | FreshKind::Composite) {
                     let first = !machine.shapes().any(|shape| matches!(shape, Shape::State(_)));
                     if first && !machine.is_pattern() {
                         line = format!("initial {line}");
@@ -82,7 +94,7 @@ impl Work {
             Section::Machine(_) => return Err("components, sensors and actuators belong to a system".to_string()),
             Section::System(_) => return Err("states, guards and actions belong to a machine".to_string()),
         };
-        self.place(&BTreeMap::from([(name.clone(), fresh.at)]))?;
+        self.place(&BTreeMap::from([(placed.unwrap_or_else(|| name.clone()), fresh.at)]))?;
         Ok(name)
     }
 
@@ -91,7 +103,7 @@ impl Work {
         let section = self.section()?;
         let has = |kind: SyntaxKind| section.syntax().children().any(|node| node.kind() == kind);
         // In the order in which charts are usually written.
-        let order = [CONTROL_VARIABLE, CONTROL_STATE, GUARD_SHAPE, ACTION_SHAPE, PATTERN_INSTANCE];
+        let order = [CONTROL_VARIABLE, CONTROL_STATE, COMPOSITE_STATE, GUARD_SHAPE, ACTION_SHAPE, PATTERN_INSTANCE];
         let own = order.iter().position(|other| *other == kind).unwrap_or(0);
         let behind = order[..=own].iter().rev().find(|kind| has(**kind)).copied();
         match behind {
@@ -104,7 +116,19 @@ impl Work {
     /// at the beginning.
     pub(super) fn add_line(&mut self, behind: impl Fn(&SyntaxNode) -> bool, line: &str) -> Result<(), String> {
         let section = self.section()?;
-        let parts: Vec<SyntaxNode> = section.syntax().children().filter(|node| is_item(node.kind())).collect();
+        self.add_line_in(section.syntax(), behind, line, "\t");
+        Ok(())
+    }
+
+    /// The same in a part of the text; `inner` are the blanks of lines at its beginning.
+    pub(super) fn add_line_in(
+        &mut self,
+        section: &SyntaxNode,
+        behind: impl Fn(&SyntaxNode) -> bool,
+        line: &str,
+        inner: &str,
+    ) {
+        let parts: Vec<SyntaxNode> = section.children().filter(|node| is_item(node.kind())).collect();
         let found = parts.iter().rfind(|node| behind(node));
         let is_path = line.contains(" -> ");
         let found = found.or_else(|| if is_path { parts.last() } else { None });
@@ -117,17 +141,17 @@ impl Work {
             let at = if only_comment { end + rest[..to_line].trim_end().len() } else { end };
             let behind = if only_comment { "" } else { "\n\t" };
             self.replace(at..at, &format!("\n{indent}{line}{behind}"));
-            return Ok(());
+            return;
         }
         // Behind the head: the name, parameters, text and link.
-        let head: Vec<_> = section.syntax().children_with_tokens().collect();
+        let head: Vec<_> = section.children_with_tokens().collect();
         let end = head
             .iter()
             .take_while(|element| match element {
                 element if element.as_node().is_some_and(|node| is_item(node.kind())) => false,
-                element => !element
-                    .as_token()
-                    .is_some_and(|token| matches!(token.kind(), ENDMACHINE_KW | ENDPATTERN_KW | ENDSYSTEM_KW)),
+                element => !element.as_token().is_some_and(|token| {
+                    matches!(token.kind(), ENDMACHINE_KW | ENDPATTERN_KW | ENDSYSTEM_KW | ENDSTATE_KW)
+                }),
             })
             .filter(|element| !element.kind().is_trivia())
             .last()
@@ -138,8 +162,7 @@ impl Work {
         // A comment at the end of the head's line stays there.
         let alone = behind.is_empty() || behind.starts_with("//");
         let at = if alone { end + rest[..to_line].trim_end().len() } else { end };
-        self.replace(at..at, &format!("\n\t{line}{}", if alone { "" } else { "\n\t" }));
-        Ok(())
+        self.replace(at..at, &format!("\n{inner}{line}{}", if alone { String::new() } else { format!("\n{inner}") }));
     }
 
     /// The blanks that the line of a node begins with.
@@ -286,6 +309,9 @@ fn is_item(kind: SyntaxKind) -> bool {
             | PATTERN_INSTANCE
             | SEQUENCE
             | CHART_PATH
+            | HISTORY
+            | ENTRY_ACTION
+            | EXIT_ACTION
             | TICK
             | PROCESSORS
             | AGE_BOUND

@@ -7,7 +7,9 @@
 mod arrow;
 mod clear;
 mod declare;
+mod ends;
 mod name;
+mod nest;
 mod place;
 mod system;
 mod text;
@@ -50,6 +52,8 @@ pub enum Operation {
     Refine(String, Option<Option<String>>),
     /// The machine starts in this control state.
     Initial(String),
+    /// Shapes go into a composite state, or out of all; those that are moved with it to these centres.
+    Nest(Vec<String>, Option<String>, BTreeMap<String, Centre>),
     /// A new machine at the end of the chart.
     Machine {
         /// The name that is wanted.
@@ -85,6 +89,8 @@ pub enum Operation {
 pub enum FreshKind {
     /// A control state.
     State,
+    /// A composite state, with a state in it.
+    Composite,
     /// A guard.
     Guard,
     /// An action.
@@ -196,6 +202,10 @@ impl Work {
                 self.set_refinement(name, refinement.as_ref().map(|by| by.as_deref()))
             }
             Operation::Initial(name) => self.set_initial(name),
+            Operation::Nest(names, into, places) => {
+                self.nest(names, into.as_deref())?;
+                self.place(places)
+            }
             Operation::Machine { name, is_pattern, title } => self.add_machine(name, *is_pattern, title),
             Operation::Paste(shapes, arrows) => self.paste(shapes, arrows),
             Operation::Set(name, property, value) => self.set(name, *property, value.as_deref()),
@@ -249,6 +259,10 @@ impl Work {
     }
 }
 
+#[cfg(test)]
+mod ends_tests;
+#[cfg(test)]
+mod nest_tests;
 #[cfg(test)]
 mod system_tests;
 #[cfg(test)]

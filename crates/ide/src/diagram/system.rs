@@ -40,6 +40,10 @@ pub enum Property {
     Processors,
     /// Of the system: how old the data of its age bound of this number may be; without a text, the bound goes.
     Age(usize),
+    /// Of a channel: the component that writes it.
+    Writer,
+    /// Of the phase of this number of a component: the channel that it reads or writes.
+    PhaseSubject(usize),
     /// Of the phase of this number of a component: how long it takes.
     PhaseTime(usize),
     /// Of the phase of this number of a component: what it is called.
@@ -254,6 +258,15 @@ impl Work {
                 let value = read(value, fixed)?;
                 let place = bound.quantity().map(|length| extent(length.syntax()));
                 self.set_item(Some(bound.syntax().clone()), place, "within", value.as_deref())
+            }
+            Property::Writer => {
+                let value = read(value, name)?.ok_or("a channel has a writer")?;
+                let old = self.channel(id)?.from().map(|token| token.text().to_string()).unwrap_or_default();
+                self.set_end(id, &old, &value, true)
+            }
+            Property::PhaseSubject(at) => {
+                let value = read(value, name)?.ok_or("a reading or a writing is about a channel")?;
+                self.set_subject(id, at, &value)
             }
             Property::PhaseTime(at) => self.set_phase_time(id, at, value),
             Property::PhaseName(at) => self.set_phase_name(id, at, value),
