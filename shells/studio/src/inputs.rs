@@ -1,6 +1,6 @@
 //! Files beside a model: inputs with their texts, scenarios.
 //!
-//! In: the path of a model, or of a file of inputs. Out: names, or a text; nothing is written. LIMIT: files that are listed.
+//! In: the path of a model, or of a file of inputs. Out: names, or a text; nothing is written. LIMIT: files of inputs that are listed.
 
 use std::path::Path;
 
@@ -9,7 +9,7 @@ use serde_json::{Value, json};
 
 use crate::folder::Folder;
 
-/// LIMIT: files that are listed.
+/// LIMIT: files of inputs that are listed.
 const FILES: usize = 200;
 
 /// YAML or CSV that is nothing else of the project.
@@ -23,10 +23,12 @@ fn is_input(name: &str) -> bool {
 /// # Errors
 /// It is no model of the folder; a sentence.
 pub fn list(folder: &Folder, model: &str) -> Result<Value, String> {
-    Ok(json!({ "files": beside(folder, model, is_input)? }))
+    let mut files = beside(folder, model, is_input)?;
+    files.truncate(FILES);
+    Ok(json!({ "files": files }))
 }
 
-/// The scenarios in the folder of a model.
+/// The scenarios in the folder of a model, all of them: whoever plays them says that they passed.
 ///
 /// # Errors
 /// It is no model of the folder; a sentence.
@@ -47,7 +49,6 @@ fn beside(folder: &Folder, model: &str, wanted: impl Fn(&str) -> bool) -> Result
     let path = |name: String| if home.is_empty() { name } else { format!("{home}/{name}") };
     let mut found: Vec<String> = names.filter(|name| wanted(name) && !name.starts_with('.')).map(path).collect();
     found.sort();
-    found.truncate(FILES);
     Ok(found)
 }
 
