@@ -21,7 +21,7 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use machine::{EngineChoice, Fault, FaultClass, Interrupt, Location, Machine, Observation, Value};
-use program::{Expression, Program, Slot};
+use program::{Expression, FunctionId, FunctionKind, Program, Slot};
 use rustc_hash::FxHashSet;
 use syntax::Span;
 
@@ -127,7 +127,8 @@ impl Explorer {
         let mut origins = Origins::of(&seen.origins);
         origins.number(&machine);
         let kept = Kept::new(program, &settings, &seen.asked);
-        let encoding = Encoding::new(program, &mut machine, &seen.rows, kept, origins.count(), widening);
+        let steady = steady_functions(program, &settings);
+        let encoding = Encoding::new(program, &mut machine, (&seen.rows, &steady), kept, origins.count(), widening);
         let encoding = Arc::new(encoding);
         let mut view = View::new(Arc::clone(interner));
         let starts = match known {
@@ -474,4 +475,15 @@ impl Explorer {
         let parts = self.conditions.iter().flat_map(|condition| &condition.parts);
         self.steps.size() + parts.map(|part| part.tree.size()).sum::<usize>()
     }
+}
+
+/// The functions that no step changes, where that may be made use of. Interchangeable elements are exchanged in all that a state
+/// has, so such functions are part of it then.
+fn steady_functions(program: &Program, settings: &Settings) -> BTreeSet<FunctionId> {
+    let updated = program.updated_functions();
+    let own = |function: &FunctionId| {
+        matches!(program.function(*function).kind, FunctionKind::Controlled | FunctionKind::Out)
+    };
+    let all = (0..program.functions.len() as u32).map(FunctionId);
+    all.filter(|function| settings.unordered.is_empty() && own(function) && !updated.contains(function)).collect()
 }

@@ -7,6 +7,7 @@
 //! words are. That a location is never undef, and that the rest never changes, is assumed until the opposite is met.
 
 use std::collections::BTreeSet;
+use std::ops::Range;
 use std::sync::Arc;
 
 use machine::inside::{extended, is_kept};
@@ -52,11 +53,12 @@ pub(crate) struct Encoding {
 
 impl Encoding {
     /// The encoding of a program's states; `machine` stands in an initial state, `initial` are the values of all initial
-    /// states by location, `kept` the inputs that these keep, and so many `origins` are to be told apart.
+    /// states by location, `kept` the inputs that these keep, and so many `origins` are to be told apart. No step changes the
+    /// `steady` functions: where they are the same in all initial states, they are no part of states.
     pub fn new(
         program: &Program,
         machine: &mut Machine,
-        initial: &[Vec<Value>],
+        (initial, steady): (&[Vec<Value>], &BTreeSet<FunctionId>),
         kept: Kept,
         origins: usize,
         widening: &Widening,
@@ -85,6 +87,9 @@ impl Encoding {
             let is_kept = is_kept(program, id);
             let Some(dense) = machine.store().dense(id) else { continue };
             if !is_kept {
+                continue;
+            }
+            if steady.contains(&id) && is_alike(machine, id, &dense, initial) {
                 continue;
             }
             of_location[dense.start as usize..dense.end as usize].fill(REST);
@@ -327,6 +332,13 @@ impl Encoding {
         }
         std::cmp::Ordering::Equal
     }
+}
+
+/// Whether the dense locations of a function have the same values in all initial states, and none gets its initial value later.
+fn is_alike(machine: &Machine, function: FunctionId, dense: &Range<u32>, initial: &[Vec<Value>]) -> bool {
+    let late = machine.has_initial(function) && dense.clone().any(|location| !machine.store().is_given(location));
+    let range = dense.start as usize..dense.end as usize;
+    !late && initial.iter().all(|state| state[range.clone()] == initial[0][range.clone()])
 }
 
 /// The dense locations whose arguments are in the declared domains, if these are finite.

@@ -34,7 +34,7 @@ impl Writes {
         let mut writes = Writes {
             procedures: vec![BTreeSet::new(); program.procedures.len()],
             values: BTreeSet::new(),
-            updated: updated(program),
+            updated: program.updated_functions(),
             levels: crate::model::nesting::levels(program),
         };
         let run: Vec<ProcedureId> = runnable(program).collect();
@@ -110,35 +110,4 @@ impl Writes {
     pub fn procedure(&self, procedure: ProcedureId) -> &BTreeSet<Target> {
         &self.procedures[procedure.0 as usize]
     }
-}
-
-fn updated(program: &Program) -> BTreeSet<FunctionId> {
-    let mut found = BTreeSet::new();
-    for rule in &program.rules {
-        match rule {
-            Rule::Update { function, .. } | Rule::Return { function, .. } => {
-                found.insert(*function);
-            }
-            Rule::Local { start, len, .. } => {
-                found.extend(&program.function_lists[*start as usize..(*start + *len) as usize]);
-            }
-            Rule::Skip
-            | Rule::Call { .. }
-            | Rule::TurboCall { .. }
-            | Rule::RunValue { .. }
-            | Rule::RunAgent { .. }
-            | Rule::Par(_)
-            | Rule::Seq(_)
-            | Rule::If { .. }
-            | Rule::Switch { .. }
-            | Rule::Let { .. }
-            | Rule::Choose { .. }
-            | Rule::Forall { .. }
-            | Rule::Extend { .. }
-            | Rule::Iterate(_)
-            | Rule::While { .. }
-            | Rule::RecursiveWhile { .. } => {}
-        }
-    }
-    found
 }

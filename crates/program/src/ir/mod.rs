@@ -12,6 +12,7 @@ mod program;
 mod rule;
 mod specialisation;
 mod term;
+mod updated;
 mod visit;
 
 pub use program::{AgentProgram, Domain, DomainKind, Expression, Function, Initial, Procedure, Program, Property};
