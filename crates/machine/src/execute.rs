@@ -7,6 +7,7 @@ use program::{FunctionId, Program, Slot};
 use syntax::Span;
 
 use crate::coverage::Coverage;
+use crate::elsewhere::Elsewhere;
 use crate::environment::{Choice, Draw, Environment, TimeUnit};
 use crate::fault::{Fault, FaultKind};
 use crate::journal::Journal;
@@ -79,6 +80,10 @@ pub(crate) struct Core {
     pub order_mattered: Option<Span>,
     /// A location was set to undef from outside.
     pub unset: bool,
+    /// What may be otherwise in other states that compiled code runs in.
+    pub elsewhere: Elsewhere,
+    /// Locations may have got other values than by steps since compiled code last ran.
+    pub disturbed: bool,
     /// Some function is shared.
     pub shared: bool,
     /// Sparse locations at the last compaction.

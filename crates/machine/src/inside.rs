@@ -18,6 +18,7 @@ use crate::memo::{fixed_functions, is_fixed_term};
 use crate::value::Value;
 
 pub use crate::alternatives::is_kept;
+pub use crate::elsewhere::Elsewhere;
 pub use crate::enumerate::extended;
 pub use crate::layout::LocationIndex;
 pub use crate::native::SharedCode;
@@ -171,10 +172,9 @@ impl Machine {
 /// Steps by compiled code alone.
 impl Machine {
     /// Compiles the main rule for the states that are reached from the present one, or takes the code that was `shared` by
-    /// another machine; whether there is code. Where that is not
-    /// the `only` initial state, the code relies on nothing that might not be so in the others.
-    pub fn compile_steps(&mut self, only: bool, shared: &SharedCode) -> bool {
-        self.core.unset |= !only;
+    /// another machine; whether there is code. It relies on nothing that is `elsewhere` otherwise.
+    pub fn compile_steps(&mut self, elsewhere: Elsewhere, shared: &SharedCode) -> bool {
+        self.core.elsewhere = elsewhere;
         self.compile_main(shared)
     }
 

@@ -60,6 +60,14 @@ impl Dimension {
         (index < self.size).then_some(index)
     }
 
+    /// The index of a covered value's number: an integer, or the place of a literal, an element, a truth value.
+    pub fn offset_of(&self, number: i64) -> i64 {
+        match self.kind {
+            DimensionKind::Boolean | DimensionKind::Enum(_) | DimensionKind::Element(_) => number,
+            DimensionKind::Integer { low } => number - low,
+        }
+    }
+
     /// The value of an index.
     pub fn value(&self, index: u32) -> Value {
         match self.kind {

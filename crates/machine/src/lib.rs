@@ -10,6 +10,7 @@ mod branching;
 mod builtin;
 mod contain;
 mod coverage;
+mod elsewhere;
 mod enumerate;
 mod environment;
 mod evaluate;

@@ -148,9 +148,11 @@ impl Machine {
     /// An initial value that cannot be evaluated.
     pub fn start(&mut self, environment: &mut dyn Environment) -> Result<(), Fault> {
         let (coverage, exploring, unset) = (self.core.coverage.take(), self.core.exploring, self.core.unset);
+        let elsewhere = std::mem::take(&mut self.core.elsewhere);
         self.core = Core::new(&self.program, &self.limits);
         // The caller may still return to an earlier state, in which locations were set to undef.
         (self.core.coverage, self.core.exploring, self.core.unset) = (coverage, exploring, unset);
+        self.core.elsewhere = elsewhere;
         self.steps = 0;
         self.settled = false;
         self.execute(environment, |executor, _| executor.start())
@@ -262,6 +264,9 @@ impl Machine {
 
     /// Whether there is compiled code for a procedure, compiling it when that is due.
     fn has_code(&mut self, procedure: ProcedureId) -> bool {
+        if std::mem::take(&mut self.core.disturbed) {
+            self.look_again();
+        }
         let choice = self.engine.choice;
         let Code { work, tried, engine, .. } = self.engine.run(procedure);
         let is_main = self.program.main == Some(procedure);
@@ -283,6 +288,18 @@ impl Machine {
             *engine = None;
         }
         engine.is_some()
+    }
+
+    /// Throws code away that takes a function for a constant which has other values now. The next code relies on it no more.
+    fn look_again(&mut self) {
+        let Machine { core, engine, .. } = self;
+        for code in &mut engine.codes {
+            let changed = code.engine.as_ref().map(|engine| engine.code().unsettled(core)).unwrap_or_default();
+            if !changed.is_empty() {
+                core.elsewhere.add_varying(&changed);
+                (code.tried, code.engine) = (false, None);
+            }
+        }
     }
 
     /// Compiles the main rule now, to code that notes which rules run, unless another machine has done so; whether there is
@@ -464,6 +481,7 @@ impl Machine {
                 journal.note(&executor.core.store, index);
             }
             executor.core.store.values[index as usize] = value;
+            executor.core.disturbed |= matches!(kind, FunctionKind::Controlled | FunctionKind::Out);
             executor.core.memo.changed();
             executor.core.store.given[index as usize] = executor.core.epoch;
             let input = (index, *function);
@@ -546,6 +564,7 @@ impl Machine {
         for carrier in &mut self.core.store.carriers {
             carrier.fresh = carrier.count;
         }
+        self.core.disturbed = true;
         self.core.inputs.clear();
         // No input of that state, whichever machine gave it, counts as one of this epoch.
         self.core.epoch = self.core.epoch.max(snapshot.epoch) + 1;

@@ -25,6 +25,7 @@ impl Machine {
         self.unwind(mark.steps);
         let journal = self.core.journal.get_or_insert_default();
         journal.go_back(mark.entry, &mut self.core.store);
+        self.core.disturbed = true;
         self.core.memo.changed();
     }
 

@@ -57,6 +57,8 @@ impl Core {
             unordered: std::sync::Arc::default(),
             order_mattered: None,
             unset: false,
+            elsewhere: crate::elsewhere::Elsewhere::default(),
+            disturbed: true,
             journal: None,
             shared: program.functions.iter().any(|function| function.kind == FunctionKind::Shared),
             compacted: 0,

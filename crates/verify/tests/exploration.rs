@@ -383,3 +383,80 @@ fn updates_that_change_nothing_are_updates() {
     // The others are at fault in some alternative.
     assert!(2 * total.compiled > total.tried, "{total:?}");
 }
+
+/// Compares initial states with those of the machine, and steps from all of them by code with those of the machine.
+fn compare_from_all(program: &Arc<Program>, widening: &Widening, total: &mut Total) -> Result<(), Trouble> {
+    let bounds = bounds(program);
+    let ([_, mut made], compiled) = explorers(program, &bounds, widening, true)?;
+    let mut compiled = compiled.expect("it was wanted");
+    let mut machine = Machine::new(Arc::clone(program), limits());
+    let mut odometer = Odometer { inputs: inputs(program, &mut machine, &bounds), ..Odometer::default() };
+    let initial: Vec<Box<[u64]>> = made.initial().iter().map(|(state, _)| state.clone()).collect();
+    assert!(initial.len() > 1, "the initial states differ");
+    for state in &initial {
+        machine.start(&mut odometer).expect("it starts");
+        machine.forget_inputs();
+        same(program, &key(program, made.values(state), None).0, &key(program, machine.locations(), None).0);
+        odometer.next();
+    }
+    let mut seen: BTreeSet<Box<[u64]>> = initial.iter().cloned().collect();
+    let mut queue = VecDeque::from(initial);
+    while let Some(state) = queue.pop_front() {
+        let (mut out, mut again) = (Vec::new(), Vec::new());
+        let before = compiled.compiled_states();
+        let expansion = made.expand(&state, &mut out).map_err(Trouble::TooNarrow)?;
+        assert_eq!(compiled.expand(&state, &mut again).map_err(Trouble::TooNarrow)?, expansion, "compiled or made");
+        assert_eq!(out, again, "compiled or made");
+        (total.tried, total.compiled) = (total.tried + 1, total.compiled + compiled.compiled_states() - before);
+        for next in out.chunks_exact(made.words()) {
+            if seen.len() < STATES && seen.insert(next.into()) {
+                queue.push_back(next.into());
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Functions that no rule updates are constants of the code and no part of states: unless initial states differ in them, an
+/// initial value comes up late, or an argument is undef or lies outside.
+#[test]
+fn what_no_rule_updates_is_constant() {
+    let mains = [
+        ("x := rate(c)", "rate($c in Colour) = if $c = RED then 1 else if $c = GREEN then 2 else undef endif endif"),
+        ("x := rate(c)", "rate($c in Colour) = if early then 1 else 2 endif"),
+        ("x := rate(c)", "rate($c in Colour) = if early and $c = RED then undef else 2 endif"),
+        ("x := if early then rate(d) else 3 endif", "rate($c in Colour) = if isUndef($c) then 4 else 5 endif"),
+        ("if isDef(rate(d)) then x := rate(RED) endif", "rate($c in Colour) = if $c = RED then 1 else undef endif"),
+        ("x := at(x + 1)", "at($i in Small) = if $i < 3 then $i else if early then 0 else -1000 endif endif"),
+        ("x := at(x)", "at($i in Small) = ($i + 1) mod 3"),
+        ("x := length(list(c)) + length(list(d))", "list($c in Colour) = if $c = RED then [1, 2] else [] endif"),
+        ("let ($l = list(c)) in if length($l) > 1 then x := first($l) endif endlet", "list($c in Colour) = [4, 5]"),
+        ("what(c)[]", "what($c in Colour) = if $c = RED then <<r_One>> else <<r_Two>> endif"),
+        ("what(c)[]", "what($c in Colour) = if $c = RED then <<r_One>> else undef endif"),
+        ("what(RED)[]", "what($c in Colour) = if early then <<r_One>> else <<r_Two>> endif"),
+        ("x := rate(next(next(c)))", "next($c in Colour) = if $c = RED then GREEN else RED endif"),
+    ];
+    let mut total = Total::default();
+    for (main, initial) in mains {
+        let text = format!(
+            "asm Model import StandardLibrary signature: enum domain Colour = {{RED | GREEN | BLUE}}\n\
+             domain Small subsetof Integer\n\
+             controlled rate: Colour -> Integer controlled at: Small -> Integer controlled list: Colour -> Seq(Integer)\n\
+             controlled what: Colour -> Rule controlled next: Colour -> Colour controlled c: Colour controlled d: Colour\n\
+             controlled x: Integer controlled early: Boolean monitored m: Boolean monitored begins: Boolean\n\
+             definitions: domain Small = {{0 : 2}} rule r_One = x := 1 rule r_Two = x := 2\n\
+             main rule r_Main = par {main} c := if m then RED else if c = RED then BLUE else GREEN endif endif endpar\n\
+             default init s0: function c = RED function x = 0 function early = begins function {initial}"
+        );
+        let checked = model::check(SourceFile::new("Model.asm", text), &mut NoFiles);
+        if checked.diagnostics.iter().any(|found| found.severity == Severity::Error) {
+            panic!("{main}: {:?}", checked.diagnostics);
+        }
+        let program = Arc::new(program::lower(&checked.model).expect("it can be lowered"));
+        let mut widening = Widening::default();
+        while let Err(Trouble::TooNarrow(more)) = compare_from_all(&program, &widening, &mut total) {
+            widening.merge(&more);
+        }
+    }
+    assert!(2 * total.compiled > total.tried, "{total:?}");
+}

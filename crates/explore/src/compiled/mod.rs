@@ -11,6 +11,7 @@ mod codec;
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
+use machine::inside::Elsewhere;
 use machine::{EngineChoice, Interrupt, Machine, Value};
 use program::{Expression, FunctionKind, Program, RuleId};
 
@@ -88,7 +89,7 @@ impl Compiled {
         // Each location has the value that its field says from now on, not only those that differ.
         let first = starts.states.first().map(|(state, _)| state.to_vec())?;
         encoding.unpack(program, &first, &mut machine, &mut view);
-        if !machine.compile_steps(starts.states.len() == 1, &settings.code) {
+        if !machine.compile_steps(elsewhere(&machine, encoding, starts, &mut view), &settings.code) {
             return None;
         }
         let touched = machine.store().touched();
@@ -243,6 +244,27 @@ impl StepMaker for Compiled {
             }
         }
     }
+}
+
+/// What is otherwise in some initial state than in the first. Nothing is known of what is in the rest.
+fn elsewhere(machine: &Machine, encoding: &Encoding, starts: &Starts, view: &mut View) -> Elsewhere {
+    let functions = machine.program().functions.len();
+    let (mut varies, mut undefined) = (vec![false; functions], vec![false; functions]);
+    let [(first, _), others @ ..] = &starts.states[..] else { return Elsewhere::default() };
+    if others.is_empty() {
+        return Elsewhere::default();
+    }
+    for field in encoding.fields.iter().filter(|field| field.location != NOWHERE) {
+        let index = field.function.0 as usize;
+        varies[index] |= others.iter().any(|(state, _)| field.code(state) != field.code(first));
+        undefined[index] |= starts.states.iter().any(|(state, _)| encoding.value(*field, state, view).is_undef());
+    }
+    for location in (0..).zip(&*encoding.of_location).filter(|(_, field)| **field == REST).map(|(location, _)| location)
+    {
+        let index = machine.store().function_of(location).0 as usize;
+        (varies[index], undefined[index]) = (true, true);
+    }
+    Elsewhere::new(varies, undefined)
 }
 
 /// The values that inputs are given, and those of their domains where these are few and always the same.

@@ -12,13 +12,14 @@ use cranelift_codegen::settings::{self, Configurable};
 use cranelift_frontend::{FunctionBuilder, FunctionBuilderContext};
 use cranelift_jit::{JITBuilder, JITModule};
 use cranelift_module::{FuncId, Linkage, Module, default_libcall_names};
-use program::{ProcedureId, Program, RuleId};
+use program::{FunctionId, ProcedureId, Program, RuleId};
 
 use crate::execute::Core;
 use crate::native::context::Context;
 use crate::native::helper::{Helpers, signature};
 use crate::native::numbered::Numbered;
 use crate::native::plan::{Facts, Plan, UnitKey};
+use crate::native::settled::unsettled;
 use crate::native::translate::Translator;
 use crate::native::unit;
 use crate::weighed::Items;
@@ -114,6 +115,11 @@ impl Code {
     pub fn fits(&self, program: &Arc<Program>, procedure: ProcedureId, core: &Core) -> bool {
         let same = Arc::ptr_eq(&self.program, program) || program.extends(&self.program);
         same && self.procedure == procedure && self.facts == Facts::of(program, core)
+    }
+
+    /// The functions that the code takes for constants and that have other values in a machine now.
+    pub fn unsettled(&self, core: &Core) -> Vec<FunctionId> {
+        unsettled(&self.facts.settled, core)
     }
 
     /// Whether a rule has run in some step, as far as that is noted.

@@ -78,7 +78,7 @@ impl Translator<'_, '_> {
     }
 
     /// The parts of an offset in bytes, one an argument, each of which is often the same in several locations.
-    fn parts(&mut self, dimensions: &[Dimension], arguments: &[Operand]) -> Option<Vec<ir::Value>> {
+    pub fn parts(&mut self, dimensions: &[Dimension], arguments: &[Operand]) -> Option<Vec<ir::Value>> {
         let mut parts = Vec::new();
         let mut stride = 16i64;
         for (dimension, argument) in dimensions.iter().zip(arguments).rev() {
@@ -136,6 +136,9 @@ impl Translator<'_, '_> {
         }
         if matches!(declared.kind, FunctionKind::Static | FunctionKind::Derived) {
             return Operand::Undef;
+        }
+        if let Some(settled) = self.read_settled(function, arguments, term) {
+            return settled;
         }
         let kind = self.kind_of(term);
         let lazy = self.plan.facts.lazy[function.0 as usize];

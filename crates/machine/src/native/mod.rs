@@ -23,6 +23,7 @@ mod numbered;
 mod plan;
 mod rule;
 mod runtime;
+mod settled;
 mod shape;
 mod term;
 mod total;

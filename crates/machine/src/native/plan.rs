@@ -15,6 +15,7 @@ use crate::membership::Membership;
 use crate::memo::{self, Shelf};
 use crate::native::helper::Helpers;
 use crate::native::numbered::{Fixed, Numbered};
+use crate::native::settled::settled_functions;
 use crate::native::shape::{Kind, Scalar, consecutive};
 use crate::native::total::total_functions;
 use crate::value::Value;
@@ -51,17 +52,21 @@ pub(super) struct Facts {
     /// By function: never undef at its numbered locations.
     pub total: Vec<bool>,
     pub shelves: Vec<Option<Shelf>>,
+    /// By function: the values at its numbered locations, where they stay as they are.
+    pub settled: Vec<Option<Arc<Items>>>,
 }
 
 impl Facts {
     /// Those of a started machine.
     pub fn of(program: &Program, core: &Core) -> Facts {
+        let lazy: Vec<bool> = (0..program.functions.len()).map(|index| is_lazy(core, index)).collect();
         Facts {
             layouts: core.store.layouts.to_vec(),
+            settled: settled_functions(program, core, &lazy),
             codomains: core.codomains.clone(),
             contents: core.contents.clone(),
             plain: core.plain.clone(),
-            lazy: program.functions.iter().enumerate().map(|(index, _)| is_lazy(core, index)).collect(),
+            lazy,
             total: total_functions(program, core),
             shelves: core.memo.shelves().to_vec(),
         }

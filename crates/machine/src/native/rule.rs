@@ -307,7 +307,10 @@ impl Translator<'_, '_> {
             let value = this.defined(value);
             let operands: Vec<Operand> = this.terms(arguments);
             let operands: Vec<Operand> = operands.into_iter().map(|operand| this.bound(operand).into()).collect();
-            let candidates = this.plan.rule_values(this.program, operands.len());
+            let mut candidates = this.plan.rule_values(this.program, operands.len());
+            if let Some((low, high)) = value.range {
+                candidates.retain(|procedure| (low..=high).contains(&i64::from(procedure.0)));
+            }
             this.dispatch(value.value, &candidates, &mut |this, procedure| {
                 if !this.program.procedure(procedure).turbo {
                     return this.procedure(procedure, &operands);

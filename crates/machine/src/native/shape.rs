@@ -62,6 +62,21 @@ impl Kind {
         }
     }
 
+    /// The number by which a register has a value of this kind; none of other values, and 0 of a real.
+    pub fn number_of(self, value: &Value) -> Option<i64> {
+        match (self, value) {
+            (Kind::Boolean, Value::Boolean(truth)) => Some(i64::from(*truth)),
+            (Kind::Integer, Value::Integer(number)) => Some(*number),
+            (Kind::Real, Value::Real(_)) => Some(0),
+            (Kind::Enum(domain), Value::Enum(of, number)) | (Kind::Element(domain), Value::Element(of, number)) => {
+                (domain == *of).then_some(i64::from(*number))
+            }
+            (Kind::Char, Value::Char(c)) => Some(i64::from(u32::from(*c))),
+            (Kind::Rule, Value::Rule(procedure)) => Some(i64::from(procedure.0)),
+            _ => None,
+        }
+    }
+
     /// The type of its register.
     pub fn register(self) -> Type {
         match self {

@@ -109,9 +109,13 @@ impl Translator<'_, '_> {
     }
 
     fn constant(&mut self, index: u32) -> Operand {
-        let pointer: *const Value = &self.plan.constants[index as usize];
         let constants = std::sync::Arc::clone(&self.plan.constants);
-        let (kind, n) = match &constants[index as usize] {
+        self.known(&constants[index as usize])
+    }
+
+    /// A value that stays where it is as long as the code.
+    pub fn known(&mut self, value: &Value) -> Operand {
+        let (kind, n) = match value {
             Value::Undef => return Operand::Undef,
             Value::Real(real) => {
                 let value = self.builder.ins().f64const(real.get());
@@ -126,7 +130,8 @@ impl Translator<'_, '_> {
             Value::Enum(domain, index) => (Kind::Enum(*domain), i64::from(*index)),
             Value::Element(domain, index) => (Kind::Element(*domain), i64::from(*index)),
             Value::Char(c) => (Kind::Char, i64::from(u32::from(*c))),
-            _ => return Operand::Boxed(self.address(pointer)),
+            Value::Rule(procedure) => (Kind::Rule, i64::from(procedure.0)),
+            _ => return Operand::Boxed(self.address(value)),
         };
         let value = self.word(n);
         Operand::Scalar(Scalar::defined(kind, value).within(n, n))

@@ -62,6 +62,7 @@ fn starts_total(program: &Program, core: &Core, index: usize) -> bool {
     let function = FunctionId(index as u32);
     matches!(program.function(function).kind, FunctionKind::Controlled | FunctionKind::Out)
         && !core.unset
+        && !core.elsewhere.may_be_undef(function)
         && core.plain[index]
         && core.initials[index].is_some()
         && Some(function) != program.self_function

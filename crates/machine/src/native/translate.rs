@@ -369,12 +369,17 @@ impl<'t, 'f> Translator<'t, 'f> {
 
     /// The same of a value so many bytes on.
     pub fn payload_at(&mut self, pointer: ir::Value, offset: i32, kind: Kind) -> ir::Value {
+        self.payload_in(FLAGS, pointer, offset, kind)
+    }
+
+    /// The same out of memory of which something is known.
+    pub fn payload_in(&mut self, flags: MemFlags, pointer: ir::Value, offset: i32, kind: Kind) -> ir::Value {
         match kind {
-            Kind::Boolean => self.load(types::I8, pointer, offset + 8),
-            Kind::Integer => self.load(types::I64, pointer, offset + 8),
-            Kind::Real => self.load(types::F64, pointer, offset + 8),
-            Kind::Enum(_) | Kind::Element(_) => self.builder.ins().uload32(FLAGS, pointer, offset + 12),
-            Kind::Char | Kind::Rule => self.builder.ins().uload32(FLAGS, pointer, offset + 8),
+            Kind::Boolean => self.builder.ins().load(types::I8, flags, pointer, offset + 8),
+            Kind::Integer => self.builder.ins().load(types::I64, flags, pointer, offset + 8),
+            Kind::Real => self.builder.ins().load(types::F64, flags, pointer, offset + 8),
+            Kind::Enum(_) | Kind::Element(_) => self.builder.ins().uload32(flags, pointer, offset + 12),
+            Kind::Char | Kind::Rule => self.builder.ins().uload32(flags, pointer, offset + 8),
         }
     }
 

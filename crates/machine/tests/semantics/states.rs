@@ -1,7 +1,7 @@
 //! States: initial values, inputs, domains that grow.
 
 use expect_test::expect;
-use machine::{Location, Machine, Value};
+use machine::{EngineChoice, Location, Machine, Passed, Value};
 
 use crate::{Counting, check, machine_of};
 
@@ -319,6 +319,68 @@ fn going_back_is_as_if_nothing_had_been_done() {
     machine.step(&mut environment).expect("a step");
     machine.go_back(&third);
     assert_eq!((machine.steps(), machine.locations()), before);
+}
+
+/// Compiled code takes functions that no rule updates for constants: not so once somebody has set one, or has gone back to a
+/// state in which it was something else.
+#[test]
+fn what_no_rule_updates_may_be_set_from_outside() {
+    let text = "signature:
+            enum domain Colour = {RED | GREEN | BLUE}
+            controlled rate: Colour -> Integer
+            controlled base: Integer
+            controlled parts: Colour -> Seq(Integer)
+            controlled todo: Rule
+            controlled c: Colour
+            controlled sum: Integer
+        definitions:
+            rule r_Add = sum := sum + rate(c) * base + length(parts(c))
+            rule r_Take = sum := sum - rate(c)
+            main rule r_Main = par
+                todo[]
+                c := if c = RED then GREEN else if c = GREEN then BLUE else RED endif endif
+            endpar
+        default init s:
+            function rate($c in Colour) = if $c = RED then 1 else if $c = GREEN then 2 else 3 endif endif
+            function base = 5
+            function parts($c in Colour) = if $c = RED then [1] else [1, 2] endif
+            function todo = <<r_Add>>
+            function c = RED
+            function sum = 0";
+    let run = |engine: EngineChoice| {
+        let mut machine = machine_of(text);
+        machine.use_engine(engine);
+        let mut environment = Counting::default();
+        machine.start(&mut environment).expect("it starts");
+        let location = |machine: &Machine, name: &str, arguments: &[Value]| {
+            let function = machine.find_function(name, arguments.len()).expect("it is declared");
+            Location { function, arguments: arguments.to_vec() }
+        };
+        let colour = machine.value(&location(&machine, "c", &[]));
+        let mut seen = Vec::new();
+        let mut go = |machine: &mut Machine| {
+            let mut passed = Passed::default();
+            machine.pass(7, &mut environment, &mut passed).expect("steps");
+            machine.step(&mut environment).expect("a step");
+            seen.push(machine.locations());
+        };
+        go(&mut machine);
+        let (mark, snapshot) = (machine.mark(), machine.snapshot());
+        machine.set(&location(&machine, "rate", &[colour.clone()]), Value::Integer(100)).expect("an Integer");
+        go(&mut machine);
+        machine.set(&location(&machine, "base", &[]), Value::Integer(7)).expect("an Integer");
+        go(&mut machine);
+        machine.go_back(&mark);
+        go(&mut machine);
+        machine.set(&location(&machine, "parts", &[colour]), Value::seq(Vec::new())).expect("a Seq");
+        go(&mut machine);
+        machine.restore(&snapshot);
+        go(&mut machine);
+        seen
+    };
+    let interpreted = run(EngineChoice::Interpreted);
+    assert_eq!(interpreted.len(), 6);
+    assert!(interpreted == run(EngineChoice::Compiled), "both engines make the same steps");
 }
 
 #[test]
