@@ -155,7 +155,7 @@ impl Machine {
 impl Machine {
     /// Its updates, in no order.
     pub fn updates(&self) -> impl Iterator<Item = (LocationIndex, &Value)> {
-        self.core.updates.stack.iter().map(|update| (update.location, &update.value))
+        self.core.updates.net(&self.core.store)
     }
 
     /// The value that it gives a location, if it does.
@@ -176,6 +176,12 @@ impl Machine {
     pub fn compile_steps(&mut self, elsewhere: Elsewhere, shared: &SharedCode) -> bool {
         self.core.elsewhere = elsewhere;
         self.compile_main(shared)
+    }
+
+    /// Whether the state that a compiled step leads to may stand in the store until the step is dropped, where its update set is not
+    /// needed otherwise: for whoever asks for nothing but the updates before that.
+    pub fn let_stand(&mut self, may: bool) {
+        self.core.updates.stays = may;
     }
 
     /// Computes the main rule's update set as [`Machine::prepare`] does, without noting what is looked at, by the code of

@@ -104,6 +104,10 @@ pub(crate) struct Updates {
     /// The unit that is the whole step.
     outermost: u32,
     units: u32,
+    /// The sequence that is the whole step need not be taken back at its end: whoever reads the update set reads it there.
+    pub stays: bool,
+    /// Such a sequence has ended, and its intermediate state is still there.
+    standing: bool,
     merge: Vec<Overwritten>,
     /// The state before the step is shown, and the intermediate elements of each domain are kept here.
     original: bool,
@@ -338,6 +342,19 @@ impl Updates {
         outcome
     }
 
+    /// Ends a `seq` that is the whole step, where its intermediate state may stay: what its log tells is the update set.
+    pub fn leave_sequence(&mut self) {
+        debug_assert!(self.stays && self.stack.is_empty() && self.is_outermost());
+        self.standing = true;
+    }
+
+    /// The updates, each with its value.
+    pub fn net<'u>(&'u self, store: &'u Store) -> impl Iterator<Item = (LocationIndex, &'u Value)> {
+        let log = if self.standing { &self.log[..] } else { &[] };
+        let written = log.iter().map(|entry| (entry.location, &store.values[entry.location as usize]));
+        self.stack.iter().map(|update| (update.location, &update.value)).chain(written)
+    }
+
     /// Whether the intermediate state has overwritten a location.
     pub fn has_overwritten(&self, location: LocationIndex) -> bool {
         self.logged.get(location as usize).is_some_and(|logged| logged.sequence != 0)
@@ -351,6 +368,7 @@ impl Updates {
             self.logged[entry.location as usize] = entry.previous;
         }
         self.sequence = 0;
+        self.standing = false;
         self.forget_intermediate(0, store);
         for (domain, _) in &self.created {
             let carrier = &mut store.carriers[domain.0 as usize];

@@ -92,6 +92,8 @@ impl Compiled {
         if !machine.compile_steps(elsewhere(&machine, encoding, starts, &mut view), &settings.code) {
             return None;
         }
+        // Conditions on a step are evaluated in the state before it.
+        machine.let_stand(settings.checks_of_steps().next().is_none());
         let touched = machine.store().touched();
         let asks_all = encoding.without_inputs(&mut view);
         let codecs = encoding.fields.iter().map(|field| Codec::of(encoding, *field)).collect();

@@ -50,6 +50,18 @@ fn exchange(value: &mut Value, new: &mut Value, compound: &mut bool) -> bool {
     true
 }
 
+/// Whether two values are equal, one of which is known to have no memory of its own.
+#[inline(always)]
+pub(super) fn is_same_scalar(scalar: &Value, other: &Value) -> bool {
+    let (one, two) = (std::ptr::from_ref(scalar).cast::<u64>(), std::ptr::from_ref(other).cast::<u64>());
+    // SAFETY: as in `exchange`: two aligned words each, of which the bits are compared that a variant with that tag has written.
+    unsafe {
+        let tag = *one;
+        let written = WRITTEN[(tag & (COMPOUND - 1)) as usize];
+        tag == *two && (one.add(1).read_volatile() ^ two.add(1).read_volatile()) & written == 0
+    }
+}
+
 impl Updates {
     /// Empties the stack.
     pub fn clear_stack(&mut self) {
@@ -88,6 +100,9 @@ mod tests {
                 let (mut left, mut right, mut compound) = (old.clone(), new.clone(), false);
                 assert_eq!(exchange(&mut left, &mut right, &mut compound), old != new);
                 assert_eq!((&left, &right), if old == new { (old, new) } else { (new, old) });
+                if old.is_scalar() {
+                    assert_eq!(is_same_scalar(old, new), old == new);
+                }
                 let has_memory = |value: &Value| matches!(value, Value::String(_) | Value::Seq(_));
                 assert_eq!(compound, has_memory(old) || has_memory(new));
             }

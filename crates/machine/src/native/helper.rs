@@ -157,6 +157,7 @@ helpers! {
     MAKE = make(context, start, count, kind) -> *const Value;
     BEGIN_SEQUENCE = begin_sequence(context) -> ();
     END_SEQUENCE = end_sequence(context) -> i64;
+    END_LAST_SEQUENCE = end_last_sequence(context) -> i64;
     OPEN = open(context) -> ();
     APPLY_UNIT = apply_unit(context) -> i64;
     JOIN = join(context) -> i64;

@@ -57,13 +57,14 @@ impl Translator<'_, '_> {
                 self.sole = sole;
             }
             Rule::Seq(rules) => {
-                let outer = self.foralls.take();
-                self.in_unit(self.sole, |this| {
+                let (outer, sole) = (self.foralls.take(), self.sole);
+                self.in_unit(sole, |this| {
                     this.call(helper::BEGIN_SEQUENCE, [this.context]);
                     for rule in program.rule_list(*rules) {
                         this.part(*rule);
                     }
-                    this.call_or_bail(helper::END_SEQUENCE, [this.context]);
+                    let end = if sole { helper::END_LAST_SEQUENCE } else { helper::END_SEQUENCE };
+                    this.call_or_bail(end, [this.context]);
                 });
                 self.foralls = outer;
             }

@@ -21,6 +21,7 @@ use syntax::{FileId, Span};
 use crate::environment::Choice;
 use crate::evaluate::collection;
 use crate::execute::{Core, Executor, Outcome};
+use crate::native::commit::is_same_scalar;
 use crate::native::comprehension::kind_of;
 use crate::native::context::Context;
 pub(super) use crate::native::gathered::{arrange, items, position};
@@ -94,7 +95,10 @@ pub unsafe extern "C" fn push(context: Pointer, location: u64, tag: u64, payload
             return agrees(context, location as i64, value);
         }
         let unit = (*context).unit as u32;
-        if (*context).terse != 0 && rule & MAY_LEAVE != 0 && *(*context).values.add(location as usize) == *value {
+        if (*context).terse != 0
+            && rule & MAY_LEAVE != 0
+            && is_same_scalar(value, &*(*context).values.add(location as usize))
+        {
             *place = Stamp { unit, index: Stamp::UNCHANGED };
             return 0;
         }
@@ -415,6 +419,19 @@ pub unsafe extern "C" fn end_sequence(context: Pointer) -> i64 {
             let ended = core.updates.end_sequence_at_once(sequence, &mut core.store);
             i64::from(ended.is_err())
         })
+    }
+}
+
+/// Ends a `seq` that is the whole step: nothing is read or updated after it.
+pub unsafe extern "C" fn end_last_sequence(context: Pointer) -> i64 {
+    // SAFETY: *context*; the memory is no part of the executor.
+    unsafe {
+        if (*context).held == 0 && Context::executor(context).core.updates.stays {
+            let sequence = Context::memory(context).sequences.pop();
+            Context::with(context, |executor, _| executor.core.updates.leave_sequence());
+            return i64::from(sequence.is_none());
+        }
+        end_sequence(context)
     }
 }
 
