@@ -514,6 +514,7 @@ module.exports = grammar({
           $.quantity,
           optional(seq("offset", $.quantity)),
           optional(seq("deadline", $.quantity)),
+          optional($.tolerance),
         ),
       ),
     phase: ($) =>
@@ -522,9 +523,12 @@ module.exports = grammar({
         field("name", $._identifier),
         optional(seq("as", $._identifier)),
         optional($.quantity),
+        optional($.fresh_bound),
         optional(seq("by", $._identifier)),
         optional(alias($._rule_link, $.link)),
       ),
+    tolerance: ($) => seq("misses", $.number, "of", $.number),
+    fresh_bound: ($) => seq("every", $.quantity, "fresh"),
     quantity: ($) => seq($.number, optional(seq(".", ".", $.number)), field("unit", $._identifier)),
     channel: ($) =>
       seq(

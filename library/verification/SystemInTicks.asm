@@ -19,6 +19,9 @@ signature:
 	// the time of a phase that ends in this tick; undef between two ticks
 	controlled fullTime: SchedulePhase -> Integer
 
+	// it may miss deadlines, so its cycles may begin late; undef: no
+	controlled mayBeLate: Task -> Boolean
+
 	// the datum that the consumer works with is at most so many ticks old
 	derived isWithin: Prod(SwingingBuffer, Integer) -> Boolean
 	derived isEndless: Scheduler -> Boolean
@@ -82,10 +85,10 @@ definitions:
 		(forall $t in Task with
 			task_kind($t) = SYNCHRONOUS
 			implies task_timeInWait($t) <= max(task_timeAllowed($t) - task_timeForElaboration($t), 0))
-	// it begins each cycle at the tick at which the period before ends
+	// it begins each cycle at the tick at which the period before ends, unless it may be late
 	invariant inv_periods over task_periodStart:
 		(forall $t in Task with
-			task_kind($t) = SYNCHRONOUS
+			task_kind($t) = SYNCHRONOUS and isUndef(mayBeLate($t))
 			implies (task_elapsedTimeOfPeriod($t) >= 0 and task_elapsedTimeOfPeriod($t) <= task_period($t)))
 
 	// with no assumption of fairness: whoever asks for a lock gets it or gives up

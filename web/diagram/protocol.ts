@@ -166,6 +166,8 @@ export interface PhaseText {
   subject: string | null
   name: Property
   time: Property
+  // Of a reading: how often it brings something new.
+  fresh: Property
   machine: Property
   range: Range | null
 }
@@ -176,6 +178,7 @@ export interface ComponentText {
   period: Property
   offset: Property
   deadline: Property
+  misses: Property
   awaits: Property
   phases: PhaseText[]
 }
@@ -208,6 +211,7 @@ export type PropertyName =
   | 'period'
   | 'offset'
   | 'deadline'
+  | 'misses'
   | 'awaits'
   | 'made'
   | 'size'
@@ -220,6 +224,7 @@ export type PropertyName =
   | 'phaseSubject'
   | 'phaseTime'
   | 'phaseName'
+  | 'phaseFresh'
   | 'phaseMachine'
 
 // A term, and what is lit by its values: a box, or a line in one.

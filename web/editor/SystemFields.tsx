@@ -147,6 +147,7 @@ function ComponentFields({ part, system, ...all }: Context & { acting: Acting; p
           <PropertyField {...all} property="deadline" label={words.system.deadline} value={part.deadline} placeholder={part.period?.text ?? ''} />
         </div>
       )}
+      {part.synchronous === true && <PropertyField {...all} property="misses" label={words.system.misses} value={part.misses} placeholder={words.system.missesNone} />}
       {part.synchronous === false && <PropertyField {...all} property="awaits" label={words.system.awaits} value={part.awaits} placeholder={words.system.awaitsNone} list={read} />}
       <Phases {...all} part={part} channels={channels.map(([name, other]) => ({ name, other: other as ChannelText }))} />
     </>
@@ -168,7 +169,7 @@ function Phases({ part, channels, ...all }: Context & { acting: Acting; part: Co
       <ol>
         {part.phases.map((phase, at) => {
           const name = `${words.system.verbs[phase.verb ?? 'elaborate']} ${phase.subject ?? ''}`
-          const told = [phase.time, phase.name, phase.machine].some((property) => property && fault(property.range))
+          const told = [phase.time, phase.name, phase.machine, phase.fresh].some((property) => property && fault(property.range))
           return (
             <li key={`${at} ${name}`}>
               <div className="phase-head">
@@ -205,6 +206,7 @@ function Phases({ part, channels, ...all }: Context & { acting: Acting; part: Co
                   <PropertyField {...all} property="phaseName" at={at} label={words.system.phaseName} value={phase.name} placeholder={words.system.phaseNameNone} />
                 )}
               </div>
+              {phase.verb === 'read' && <PropertyField {...all} property="phaseFresh" at={at} label={words.system.fresh} value={phase.fresh} placeholder={words.system.freshNone} />}
               {!told && <Told reason={fault(phase.range)} />}
             </li>
           )

@@ -5,7 +5,7 @@
 import type { ReactNode } from 'react'
 
 import { words } from '../words'
-import type { AgeTimes, SystemTimes, TaskTimes } from './jobs'
+import type { AgeTimes, FreshTimes, SystemTimes, TaskTimes } from './jobs'
 
 // Milliseconds as a chart writes them, as exactly as they are.
 const shown = (ns: number | null): string => (ns === null ? '' : `${ns / 1e6} ms`)
@@ -39,12 +39,15 @@ export function TimesTables({ all }: { all: SystemTimes[] }): ReactNode {
         </tbody>
       </table>
       {times.ages.length > 0 && <Ages ages={times.ages} />}
+      {times.fresh.length > 0 && <Fresh all={times.fresh} />}
     </section>
   ))
 }
 
 function TaskRow({ task }: { task: TaskTimes }): ReactNode {
-  const tone = task.verdict === 'meets' ? 'good' : task.verdict === 'misses' ? 'bad' : 'unknown'
+  const { missed } = task
+  const bad = missed === null ? task.verdict === 'misses' : missed.within === false
+  const tone = task.verdict === 'meets' || missed?.within === true ? 'good' : bad ? 'bad' : 'unknown'
   return (
     <tr>
       <th scope="row">{task.name}</th>
@@ -57,9 +60,48 @@ function TaskRow({ task }: { task: TaskTimes }): ReactNode {
       <td>{shown(task.deadline_ns)}</td>
       <td>
         {task.verdict !== null && <span className={`outcome ${tone}`}>{words.times.verdicts[task.verdict] ?? task.verdict}</span>}{' '}
-        <span className="faint">{task.reason}</span>
+        <span className="faint">
+          {task.reason} {missed && words.times.mayMiss(missed.most, missed.allowed, missed.cycles)}
+        </span>
       </td>
     </tr>
+  )
+}
+
+function Kept({ within, reason }: { within: boolean | null; reason: string | null }): ReactNode {
+  return (
+    <td>
+      <span className={`outcome ${within === true ? 'good' : 'unknown'}`}>{within === true ? words.times.within : words.times.notShown}</span>{' '}
+      <span className="faint">{reason}</span>
+    </td>
+  )
+}
+
+function Fresh({ all }: { all: FreshTimes[] }): ReactNode {
+  return (
+    <table>
+      <caption>{words.times.fresh}</caption>
+      <thead>
+        <tr>
+          {[words.times.reader, words.times.channel, words.times.most, words.times.bound, words.times.kept].map((word) => (
+            <th key={word} scope="col">
+              {word}
+            </th>
+          ))}
+        </tr>
+      </thead>
+      <tbody>
+        {all.map((one) => (
+          <tr key={`${one.reader} ${one.channel}`}>
+            <th scope="row">{one.reader}</th>
+            <td>{one.channel}</td>
+            <td>{shown(one.most_ns)}</td>
+            <td>{shown(one.limit_ns)}</td>
+            <Kept within={one.within} reason={one.reason} />
+          </tr>
+        ))}
+      </tbody>
+    </table>
   )
 }
 
@@ -83,10 +125,7 @@ function Ages({ ages }: { ages: AgeTimes[] }): ReactNode {
             <td>{age.to}</td>
             <td>{shown(age.most_ns)}</td>
             <td>{shown(age.limit_ns)}</td>
-            <td>
-              <span className={`outcome ${age.within === true ? 'good' : 'unknown'}`}>{age.within === true ? words.times.within : words.times.notShown}</span>{' '}
-              <span className="faint">{age.reason}</span>
-            </td>
+            <Kept within={age.within} reason={age.reason} />
           </tr>
         ))}
       </tbody>

@@ -248,6 +248,16 @@ export interface TaskTimes {
   deadline_ns: number | null
   verdict: string | null
   reason: string | null
+  missed: { allowed: number; cycles: number; most: number | null; within: boolean | null; reason: string | null } | null
+}
+
+export interface FreshTimes {
+  reader: string
+  channel: string
+  limit_ns: number
+  most_ns: number | null
+  within: boolean | null
+  reason: string | null
 }
 
 export interface AgeTimes {
@@ -266,6 +276,7 @@ export interface SystemTimes {
   load: number
   tasks: TaskTimes[]
   ages: AgeTimes[]
+  fresh: FreshTimes[]
   // What cannot hold on one processor, while a chart does not say how many there are.
   told?: string[]
 }

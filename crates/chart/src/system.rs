@@ -49,6 +49,26 @@ pub struct AgeBound {
     pub span: Span,
 }
 
+/// How many deadlines a task may miss: at most so many of any successive cycles.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Tolerance {
+    /// How many.
+    pub missed: u64,
+    /// Of how many cycles.
+    pub cycles: u64,
+    /// Where it is stated.
+    pub span: Span,
+}
+
+/// How often a reading brings something new.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct FreshBound {
+    /// The longest time between two such readings, in ticks.
+    pub limit: u64,
+    /// Where it is stated.
+    pub span: Span,
+}
+
 /// A control task.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Component {
@@ -58,6 +78,8 @@ pub struct Component {
     pub text: String,
     /// When it runs.
     pub timing: Timing,
+    /// How many deadlines it may miss; none: no one.
+    pub tolerance: Option<Tolerance>,
     /// The phases of a cycle.
     pub phases: Vec<Phase>,
     /// Where it is declared: its name.
@@ -88,6 +110,11 @@ impl System {
     pub fn drawn_channels(&self) -> impl Iterator<Item = &[Channel]> {
         // One declaration makes them, one after the other.
         self.channels.chunk_by(|one, next| one.drawn == next.drawn)
+    }
+
+    /// Whether it bounds the time until readers get something new.
+    pub fn has_fresh_bounds(&self) -> bool {
+        self.components.iter().flat_map(|component| &component.phases).any(|phase| phase.fresh.is_some())
     }
 
     /// Of channels with these indices, one of each that is drawn.
@@ -140,6 +167,8 @@ pub struct Phase {
     pub time: u64,
     /// The shortest duration; equal to `time` unless it varies.
     pub least: u64,
+    /// Of a reading: how often it brings something new.
+    pub fresh: Option<FreshBound>,
     /// The machine that says what an elaboration computes.
     pub machine: Option<Named>,
     /// Where it is declared.

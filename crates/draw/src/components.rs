@@ -59,7 +59,7 @@ fn plain(text: &str) -> Detail {
 
 /// When a component runs, and its phases.
 fn about(component: &Component, system: &System) -> Vec<Detail> {
-    let mut lines = vec![plain(&words::timing(component.timing, system.tick_ns))];
+    let mut lines = vec![plain(&words::timing(component, system.tick_ns))];
     let drawn = component.phases.chunk_by(|one, next| one.drawn == next.drawn);
     for (phase, times) in drawn.map(|phases| (&phases[0], phases.len())) {
         let what = match phase.action {
@@ -74,6 +74,9 @@ fn about(component: &Component, system: &System) -> Vec<Detail> {
         let time = words::duration(phase, system.tick_ns);
         let time = if times > 1 { format!("{times} \u{d7} {time}") } else { time };
         lines.push(Detail { id, text: what, right: Some(time) });
+        if let Some(bound) = phase.fresh {
+            lines.push(plain(&format!("new every {}", words::time(bound.limit, system.tick_ns))));
+        }
     }
     lines
 }

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use chart::system::{Channel, ChannelKind, Phase, System, Timing};
+use chart::system::{Channel, ChannelKind, Component, Phase, System, Timing};
 use chart::{Chart, Machine, Origin, Target, transitions};
 
 /// LIMIT: a description tells so many transitions.
@@ -70,8 +70,16 @@ pub fn duration(phase: &Phase, tick_ns: u64) -> String {
     }
 }
 
-/// When a component runs.
-pub fn timing(timing: Timing, tick_ns: u64) -> String {
+/// When a component runs, and what of its deadlines it may miss.
+pub fn timing(component: &Component, tick_ns: u64) -> String {
+    let mut text = runs(component.timing, tick_ns);
+    if let Some(one) = component.tolerance {
+        let _ = write!(text, ", misses {} of {}", one.missed, one.cycles);
+    }
+    text
+}
+
+fn runs(timing: Timing, tick_ns: u64) -> String {
     match timing {
         Timing::Synchronous { period, offset, deadline } => {
             let mut text = format!("synchronous, {}", time(period, tick_ns));
@@ -119,7 +127,7 @@ pub fn masters(system: &System, drawn: &[Channel]) -> Vec<String> {
 pub fn of_system(system: &System) -> String {
     let mut out = format!("System {}.", system.name);
     for component in &system.components {
-        let _ = write!(out, " {}: {}.", component.text, timing(component.timing, system.tick_ns));
+        let _ = write!(out, " {}: {}.", component.text, timing(component, system.tick_ns));
     }
     for one in &system.channels {
         let (from, to) = (&system.components[one.from].text, &system.components[one.to].text);

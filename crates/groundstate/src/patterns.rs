@@ -32,7 +32,9 @@ const PATTERNS: Library = Library {
         "ControlTask.asm",
         "DataAges.asm",
         "DataProducer.chart",
+        "FreshReadings.asm",
         "MessageQueue.asm",
+        "MissedDeadlines.asm",
         "PatternMachines.asm",
         "PatternMachines.chart",
         "Producer.asm",
@@ -49,7 +51,15 @@ const PATTERNS: Library = Library {
 const VERIFICATION: Library = Library {
     folder: "verification/",
     home: "<verification>/",
-    files: files!["verification": "AgesInTicks.asm", "Quotient.asm", "SystemInTicks.asm", "SystemProperties.asm"],
+    files: files![
+        "verification":
+        "AgesInTicks.asm",
+        "FreshInTicks.asm",
+        "MissedInTicks.asm",
+        "Quotient.asm",
+        "SystemInTicks.asm",
+        "SystemProperties.asm",
+    ],
 };
 
 const LIBRARIES: [Library; 2] = [PATTERNS, VERIFICATION];

@@ -2,6 +2,7 @@
 //! folder is a module here.
 
 mod aged_systems;
+mod bounded_systems;
 mod composite_states;
 mod decision;
 mod invariants;

@@ -39,6 +39,8 @@ fn properties(system: &SystemChart) -> Vec<(String, Property, Option<String>, &'
                 (Property::Deadline, SyntaxKind::DEADLINE_KW),
             ];
             out.extend(words.map(|(property, word)| (name.clone(), property, length(kind.quantity(word)), "777 ms")));
+            let missed = kind.tolerance().map(|one| one.syntax().text().to_string().trim()[7..].to_string());
+            out.push((name.clone(), Property::Misses, missed, "7 of 77"));
         } else {
             out.push((name.clone(), Property::Awaits, word(kind.awaits()), "other"));
         }
@@ -48,6 +50,10 @@ fn properties(system: &SystemChart) -> Vec<(String, Property, Option<String>, &'
                 out.push((name.clone(), Property::PhaseMachine(at), word(phase.machine()), "Other"));
             } else {
                 out.push((name.clone(), Property::PhaseName(at), word(phase.name()), "other"));
+            }
+            if phase.kind() == Some(PhaseKind::Read) {
+                let fresh = length(phase.fresh().and_then(|bound| bound.quantity()));
+                out.push((name.clone(), Property::PhaseFresh(at), fresh, "777 ms"));
             }
         }
     }

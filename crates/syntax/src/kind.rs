@@ -102,7 +102,8 @@ kinds! {
     PERIOD_KW = "period", OFFSET_KW = "offset", DEADLINE_KW = "deadline", AWAITS_KW = "awaits", READ_KW = "read",
     ELABORATE_KW = "elaborate", WRITE_KW = "write", AS_KW = "as", CHANNEL_KW = "channel", FROM_KW = "from",
     SWINGING_KW = "swinging", BUFFER_KW = "buffer", QUEUE_KW = "queue", VALUE_KW = "value", MASTER_KW = "master",
-    SENSOR_KW = "sensor", ACTUATOR_KW = "actuator", PROCESSORS_KW = "processors",
+    SENSOR_KW = "sensor", ACTUATOR_KW = "actuator", PROCESSORS_KW = "processors", MISSES_KW = "misses", EVERY_KW = "every",
+    FRESH_KW = "fresh",
 
     // Nodes: the file
     SOURCE_FILE, MACHINE_NAME, IMPORT, IMPORT_SELECTION, NAME_REF, EXPORT, SIGNATURE, DEFINITIONS,
@@ -137,7 +138,7 @@ kinds! {
     HISTORY, ENTRY_ACTION, EXIT_ACTION, ABORT_ACTION, GUARD_SHAPE, ACTION_SHAPE, PATTERN_INSTANCE, LINK,
     REFINEMENT, CHART_PATH, PATH_STOP, SEQUENCE, LAYOUT, PLACEMENT, COORDINATE,
     SYSTEM_CHART, TICK, PROCESSORS, COMPONENT, COMPONENT_KIND, PHASE, CHANNEL, CHANNEL_KIND, DEVICE, AGE_BOUND, CONNECTION,
-    QUANTITY,
+    QUANTITY, TOLERANCE, FRESH_BOUND,
 }
 
 impl SyntaxKind {

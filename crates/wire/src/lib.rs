@@ -42,7 +42,7 @@ pub use refinement::Refinement;
 pub use review::{Finding, MetaProperty};
 pub use run::{RunFile, RunTold, Unseen};
 pub use session::{Named, Related, SESSION_VERSION, SessionState, Waiting, Written, Wrong, written_state};
-pub use times::{AgeOfData, TaskTime, TimesTold};
+pub use times::{AgeOfData, MissedDeadlines, NewData, TaskTime, TimesTold};
 pub use trace::{Ending, Head, Line, Pairs, Reader, State, Step, VERSION, Wire};
 pub use verification::{Assumed, DomainLine, Explored, ExploredLine, RunChange, RunStep, Verdict};
 

@@ -3,7 +3,7 @@
 //! In: a system and its [`Times`]. Out: an object for programs, of the command line and of the language server.
 
 use chart::system::{Component, System, Timing};
-use chart::times::{Order, TaskTimes, Times, Verdict};
+use chart::times::{Order, TaskTimes, Times, Verdict, bounded};
 use serde::Serialize;
 
 /// The times of a system.
@@ -27,7 +27,43 @@ pub enum TimesTold<'a> {
         tasks: Vec<TaskTime<'a>>,
         /// The age bounds, in the order of the chart.
         ages: Vec<AgeOfData<'a>>,
+        /// The readings that have to bring something new now and then, in the order of the chart.
+        fresh: Vec<NewData<'a>>,
     },
+}
+
+/// How many deadlines a task may miss.
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub struct MissedDeadlines<'a> {
+    /// So many may be missed,
+    pub allowed: u64,
+    /// of so many successive cycles.
+    pub cycles: u64,
+    /// The most that the analysis allows; null if it gives none.
+    pub most: Option<u64>,
+    /// True if it is shown that no more are missed, false if some run misses more; otherwise null.
+    pub within: Option<bool>,
+    /// Why no number is given.
+    pub reason: Option<&'a str>,
+}
+
+/// How often a reader gets something new.
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub struct NewData<'a> {
+    /// The reading component.
+    pub reader: &'a str,
+    /// The channel, as it is drawn.
+    pub channel: &'a str,
+    /// The longest time between two readings that bring something new which is allowed.
+    pub limit_ns: u64,
+    /// The longest time that the analysis allows; null if it gives none.
+    pub most_ns: Option<u64>,
+    /// True if the time is shown to be within its limit; otherwise null: it is not known.
+    pub within: Option<bool>,
+    /// Why no longest time is given.
+    pub reason: Option<&'a str>,
 }
 
 /// The times of a task.
@@ -56,6 +92,8 @@ pub struct TaskTime<'a> {
     pub verdict: Option<&'a str>,
     /// Why it is not known.
     pub reason: Option<&'a str>,
+    /// How many deadlines it misses, if it may miss some; otherwise null.
+    pub missed: Option<MissedDeadlines<'a>>,
 }
 
 /// The age of data on their way.
@@ -103,8 +141,23 @@ impl<'a> TimesTold<'a> {
                 deadline_ns: deadline.map(ns),
                 verdict,
                 reason,
+                missed: component.tolerance.zip(task.missed.as_ref()).map(|(tolerance, missed)| MissedDeadlines {
+                    allowed: tolerance.missed,
+                    cycles: tolerance.cycles,
+                    most: missed.most,
+                    within: task.keeps(Some(&tolerance)),
+                    reason: missed.reason.as_deref(),
+                }),
             }
         };
+        let fresh = bounded(system).zip(&times.fresh).map(|((phase, bound), one)| NewData {
+            reader: &system.components[one.component].name,
+            channel: &phase.subject,
+            limit_ns: ns(bound.limit),
+            most_ns: one.most.map(ns),
+            within: one.most.map(|most| most <= bound.limit).filter(|within| *within),
+            reason: one.reason.as_deref(),
+        });
         let ages = system.bounds.iter().zip(&times.ages).map(|(bound, age)| AgeOfData {
             from: &bound.from.text,
             to: &bound.to.text,
@@ -124,6 +177,7 @@ impl<'a> TimesTold<'a> {
             overloaded: times.overloaded,
             tasks: system.components.iter().zip(&times.tasks).map(task).collect(),
             ages: ages.collect(),
+            fresh: fresh.collect(),
         }
     }
 }

@@ -41,7 +41,7 @@
   "to" "refine" "enter" "exit" "yes" "no" "sequence" "history" "entry" "abort" "layout" "endlayout" "at"
   "system" "endsystem" "tick" "processors" "component" "endcomponent" "synchronous" "asynchronous" "period" "offset"
   "deadline" "awaits" "read" "elaborate" "write" "as" "channel" "from" "swinging" "buffer" "master" "queue" "value"
-  "sensor" "actuator" "within"
+  "sensor" "actuator" "within" "misses" "every" "fresh"
 ] @keyword
 
 ["Prod" "Seq" "Powerset" "Bag" "Map" "Rule"] @type.builtin

@@ -126,6 +126,12 @@ impl Properties<'_> {
         };
         let (period, offset) = (quantity(SyntaxKind::PERIOD_KW), quantity(SyntaxKind::OFFSET_KW));
         let deadline = quantity(SyntaxKind::DEADLINE_KW);
+        // `1 of 20`, without the word before.
+        let missed = kind.as_ref().and_then(|kind| kind.tolerance());
+        let mut missed = self.node(missed.as_ref().map(AstNode::syntax));
+        if let Some(text) = missed["text"].as_str() {
+            missed["text"] = text.trim_start_matches("misses").trim().into();
+        }
         let awaits = self.word(kind.and_then(|kind| kind.awaits()));
         let phases: Vec<Value> = component
             .phases()
@@ -140,6 +146,7 @@ impl Properties<'_> {
                     "subject": text(phase.subject()),
                     "name": self.word(phase.name()),
                     "time": self.node(phase.time().as_ref().map(AstNode::syntax)),
+                    "fresh": self.node(phase.fresh().and_then(|bound| bound.quantity()).as_ref().map(AstNode::syntax)),
                     "machine": self.word(phase.machine()),
                     "range": self.node(Some(phase.syntax()))["range"],
                 })
@@ -151,6 +158,7 @@ impl Properties<'_> {
             "period": period,
             "offset": offset,
             "deadline": deadline,
+            "misses": missed,
             "awaits": awaits,
             "phases": phases,
         })
@@ -177,6 +185,7 @@ pub fn operation_of(value: &Value) -> Result<Option<Operation>, Refused> {
                 "period" => Property::Period,
                 "offset" => Property::Offset,
                 "deadline" => Property::Deadline,
+                "misses" => Property::Misses,
                 "awaits" => Property::Awaits,
                 "made" => Property::Kind,
                 "size" => Property::Size,
@@ -189,6 +198,7 @@ pub fn operation_of(value: &Value) -> Result<Option<Operation>, Refused> {
                 "phaseSubject" => Property::PhaseSubject(number("at")?),
                 "phaseTime" => Property::PhaseTime(number("at")?),
                 "phaseName" => Property::PhaseName(number("at")?),
+                "phaseFresh" => Property::PhaseFresh(number("at")?),
                 "phaseMachine" => Property::PhaseMachine(number("at")?),
                 other => return Err(Refused::wrong(format!("`{other}` is no property"))),
             };

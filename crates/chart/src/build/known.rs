@@ -18,7 +18,7 @@ pub(super) fn missing(known: &Known) -> Option<&'static str> {
 }
 
 /// Domains whose elements the chart alone determines.
-pub(crate) const OWNED: [&str; 9] = [
+pub(crate) const OWNED: [&str; 10] = [
     "Scheduler",
     "Task",
     "SwingingBuffer",
@@ -29,6 +29,8 @@ pub(crate) const OWNED: [&str; 9] = [
     // of the module that follows ages, which only systems with age bounds import
     "Hop",
     "Way",
+    // of the module that follows new readings
+    "Reading",
 ];
 
 /// Names that exist already.

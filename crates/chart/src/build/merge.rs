@@ -9,6 +9,7 @@ use syntax::ast::trimmed_range;
 use syntax::{Diagnostic, FileId, Severity, SyntaxKind, SyntaxKind::*, SyntaxNode};
 
 use super::module::{Item, Parts, quoted};
+use super::observed;
 use crate::chart::Chart;
 
 /// One change of the text.
@@ -93,7 +94,8 @@ fn items(section: &SyntaxNode, wanted: &[Item], edits: &mut Vec<Edit>) {
     let mut there = BTreeSet::new();
     for node in section.children() {
         let Some(name) = declared(&node) else { continue };
-        if let Some(item) = wanted.iter().find(|item| item.name == name && item.decided) {
+        let is_new = |item: &&Item| item.decided || observed::is_outdated(&node.text().to_string(), &item.text);
+        if let Some(item) = wanted.iter().filter(|item| item.name == name).find(is_new) {
             let range = trimmed_range(&node);
             let body = without_note(&item.text).trim_end().to_string();
             edits.push(Edit { start: range.start().into(), end: range.end().into(), text: body });
@@ -120,12 +122,13 @@ fn forgotten(signature: &SyntaxNode, parts: &Parts, edits: &mut Vec<Edit>) {
     }
 }
 
-/// Removes the invariants of age bounds that are no longer in the chart: what they speak of is gone.
+/// Removes the invariants of bounds that are no longer in the chart: what they speak of is gone.
 fn unbounded(definitions: &SyntaxNode, parts: &Parts, edits: &mut Vec<Edit>) {
     for node in definitions.children().filter(|node| node.kind() == INVARIANT) {
         let name = declared(&node).unwrap_or_default();
-        let is_age = name.starts_with("inv_age") && node.text().to_string().contains("way_tooOld(bound");
-        if is_age && !parts.definitions.iter().any(|item| item.name == name) {
+        let text = node.text().to_string();
+        let is_age = name.starts_with("inv_age") && text.contains("way_tooOld(bound");
+        if (is_age || observed::is_made(&name, &text)) && !parts.definitions.iter().any(|item| item.name == name) {
             let range = trimmed_range(&node);
             edits.push(Edit { start: range.start().into(), end: range.end().into(), text: String::new() });
         }

@@ -8,6 +8,7 @@ mod ages;
 mod known;
 mod merge;
 mod module;
+mod observed;
 mod rule;
 mod spelling;
 pub(crate) mod system;

@@ -12,6 +12,7 @@ use super::ages::Ages;
 use super::known::Known;
 use super::known::missing;
 use super::module::{Item, Parts};
+use super::observed;
 use super::table::{by_case, waiting};
 use crate::chart::Chart;
 use crate::component::{Carrying, carry, compose};
@@ -83,7 +84,8 @@ pub(super) fn parts(chart: &Chart, system: &System, known: &Known) -> Parts {
         element(&waiting(component), "SchedulePhase");
     }
     let ages = Ages::of(system);
-    ages.elements().iter().for_each(|(name, domain)| element(name, domain));
+    let observed = observed::elements(system);
+    ages.elements().iter().chain(&observed).for_each(|(name, domain)| element(name, domain));
     for phase in system.components.iter().flat_map(|component| &component.phases) {
         if let Action::Elaborate(Some(link)) = &phase.action
             && !known.rules.contains(&link.name)
@@ -108,19 +110,19 @@ pub(super) fn parts(chart: &Chart, system: &System, known: &Known) -> Parts {
         );
     }
     fixed(&mut parts, "inv_patterns", "invariant inv_patterns over sem_state, indexRead: patternsSound\n");
-    let deadlines =
-        "invariant inv_deadlines over task_deadlinesMissed: (forall $t in Task with task_deadlinesMissed($t) = 0)\n";
-    fixed(&mut parts, "inv_deadlines", deadlines);
-    if system.bounds.is_empty() {
-        parts.main = Some(format!("main rule r_Main =\n{TICK}"));
-    } else {
-        let library = super::library(chart).unwrap_or_else(|| "patterns/".to_string());
+    parts.definitions.push(observed::deadlines(system));
+    let library = super::library(chart).unwrap_or_else(|| "patterns/".to_string());
+    let mut after = "";
+    if !system.bounds.is_empty() {
         parts.imports.push(format!("{library}DataAges"));
         for (name, text) in ages.invariants(system) {
             parts.definitions.push(Item { name, text, decided: true });
         }
-        parts.main = Some(format!("main rule r_Main =\nseq\n{TICK}r_ages[]\nendseq\n"));
+        after = "r_ages[]\n";
     }
+    parts.imports.extend(observed::observers(system).iter().map(|one| format!("{library}{}", one.module)));
+    parts.definitions.extend(observed::invariants(system));
+    parts.main = Some(format!("main rule r_Main =\n{}", observed::observed(system, TICK, after, false)));
     let agent = if varies(system) { VARYING_AGENT } else { AGENT };
     if system.computing.ends.is_empty() {
         parts.init = Some(initial(system) + agent);
@@ -206,6 +208,7 @@ pub(super) fn verified(chart: &Chart, system: &System, library: &str, lengths: L
     // How old data are says nothing where elaborations take any time.
     if !free.is_empty() {
         system.bounds.clear();
+        observed::without_fresh(&mut system);
     }
     let mut parts = parts(chart, &system, &Known::default());
     // The tick lets actions end, whatever the tasks' rule.
@@ -218,7 +221,11 @@ pub(super) fn verified(chart: &Chart, system: &System, library: &str, lengths: L
         Some(_) => carry::moved(&system, TICK),
         None => TICK.to_string(),
     };
+    let system_tick = observed::observed(&system, &system_tick, "", true);
     fixed(&mut parts, "r_system", &format!("// a tick of the system as it is drawn\nrule r_system =\n{system_tick}"));
+    for observer in observed::observers(&system) {
+        parts.imports.extend([format!("{library}{}", observer.module), format!("{VERIFICATION}{}", observer.in_ticks)]);
+    }
     let tick = if system.bounds.is_empty() { "r_tick" } else { "r_agedTick" };
     if !system.bounds.is_empty() {
         parts.imports.extend([format!("{library}DataAges"), format!("{VERIFICATION}AgesInTicks")]);
@@ -237,6 +244,13 @@ pub(super) fn verified(chart: &Chart, system: &System, library: &str, lengths: L
     define("before_written($b in SwingingBuffer)", "0");
     define("before_phase($c in Scheduler)", "scheduler_currentPhase($c)");
     define("lostSilently($v in SharedValue)", "false");
+    if observed::weakly_hard(&system).next().is_some() {
+        let late = |component: &Component| {
+            (self::task(component), if component.tolerance.is_some() { "true" } else { "undef" }.to_string())
+        };
+        let late: Vec<_> = system.components.iter().map(late).collect();
+        define("mayBeLate($t in Task)", &by_case("$t", &late));
+    }
     if let Some(oldest) = system.bounds.iter().map(|bound| bound.limit).max() {
         define("tooOld", &(oldest + 1).to_string());
     }
@@ -331,6 +345,7 @@ fn initial(system: &System) -> String {
     if !system.bounds.is_empty() {
         Ages::of(system).define(system, &mut define);
     }
+    observed::define(system, &mut define);
     text
 }
 

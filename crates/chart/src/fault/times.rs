@@ -68,6 +68,32 @@ pub(crate) fn no_way(span: Span, from: &str, to: &str, reason: &str) -> Diagnost
         .with_help("name a component or sensor, and a component or actuator, that channels connect")
 }
 
+/// A task that may miss all deadlines.
+pub(crate) fn all_missed(span: Span, missed: u64, cycles: u64) -> Diagnostic {
+    Diagnostic::error(
+        "missed-deadlines",
+        span,
+        format!("{missed} of {cycles} are all: its deadlines would say nothing"),
+    )
+    .here("how many deadlines may be missed")
+    .with_help("allow fewer misses than cycles, as in `misses 1 of 20`")
+}
+
+/// More cycles than are looked at.
+pub(crate) fn long_window(span: Span, most: u64) -> Diagnostic {
+    Diagnostic::error("missed-deadlines", span, format!("missed deadlines are counted among {most} cycles at most"))
+        .here("how many deadlines may be missed")
+        .with_help("state it for fewer cycles: `misses 1 of 1000` allows no more than `misses 2 of 2000`")
+}
+
+/// A bound below what periods allow.
+pub(crate) fn seldom_fresh(span: Span, name: &str, limit: &str, who: &str, period: &str) -> Diagnostic {
+    let message = format!("`{name}` cannot bring something new every {limit}: {who} once in {period}");
+    Diagnostic::error("fresh-bound", span, message)
+        .here("the longest time until something new comes")
+        .with_help("allow a longer time, or let both ends work more often")
+}
+
 /// More ways than are told apart.
 pub(crate) fn many_ways(span: Span, most: usize) -> Diagnostic {
     Diagnostic::error("age-bound", span, format!("data take more than {most} ways between these"))

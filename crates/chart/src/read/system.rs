@@ -10,11 +10,17 @@ use super::Reader;
 use super::link::{flat, link};
 use super::machine::spoken;
 use crate::build::system::{busy, taken};
-use crate::system::{Action, AgeBound, Channel, ChannelKind, Component, Device, Named, Phase, System, Timing, length};
+use crate::system::{
+    Action, AgeBound, Channel, ChannelKind, Component, Device, FreshBound, Named, Phase, System, Timing, Tolerance,
+    length,
+};
 use crate::{fault, times, ways};
 
 /// The default length of a step: a millisecond.
 const TICK_NS: u64 = 1_000_000;
+
+/// LIMIT: the most cycles among which missed deadlines are counted.
+const WINDOW: u64 = 1_000;
 
 impl Reader {
     pub(super) fn system(&mut self, node: &ast::SystemChart) -> Option<System> {
@@ -169,6 +175,10 @@ impl Reader {
             let until = format!("its {word} of {}", shown(time_until));
             let spared: u64 = component.phases.iter().map(|phase| phase.time - phase.least).sum();
             let always = whole - spared > available;
+            // How many cycles take too long is for the verification.
+            if component.tolerance.is_some() && !always {
+                continue;
+            }
             self.faults.push(fault::long_cycle(component.span, &component.name, always, &sum, &until));
         }
     }
@@ -211,6 +221,11 @@ impl Reader {
         length / tick_ns
     }
 
+    fn fresh(&mut self, node: &ast::FreshBound, tick_ns: u64) -> Option<FreshBound> {
+        let limit = self.ticks(&node.quantity()?, tick_ns);
+        Some(FreshBound { limit, span: Span::new(self.file, node.range()) })
+    }
+
     /// The shortest and the longest duration of a phase.
     fn durations(&mut self, phase: &ast::Phase, tick_ns: u64) -> (u64, u64) {
         let Some(quantity) = phase.time() else { return (1, 1) };
@@ -233,6 +248,7 @@ impl Reader {
             self.faults.push(fault::duplicate(span, "component", name.text(), first.span));
         }
         let kind = node.kind();
+        let tolerance = kind.as_ref().and_then(ast::ComponentKind::tolerance).and_then(|one| self.tolerance(&one));
         let timing = match kind.filter(ast::ComponentKind::is_synchronous) {
             Some(kind) => {
                 let mut length =
@@ -261,9 +277,22 @@ impl Reader {
             text: node.text().unwrap_or_else(|| spoken(name.text())),
             name: name.text().to_string(),
             timing,
+            tolerance,
             phases: Vec::new(),
             span,
         });
+    }
+
+    fn tolerance(&mut self, node: &ast::Tolerance) -> Option<Tolerance> {
+        let number = |token: Option<SyntaxToken>| token.and_then(|token| token.text().parse::<u64>().ok());
+        let (missed, cycles) = (number(node.missed())?, number(node.cycles())?);
+        let span = Span::new(self.file, node.range());
+        if missed >= cycles {
+            self.faults.push(fault::times::all_missed(span, missed, cycles));
+        } else if cycles > WINDOW {
+            self.faults.push(fault::times::long_window(span, WINDOW));
+        }
+        Some(Tolerance { missed, cycles, span })
     }
 
     fn component_named(&mut self, name: Option<SyntaxToken>, system: &System) -> Option<usize> {
@@ -388,6 +417,7 @@ impl Reader {
                 None => format!("{owner}_{word}{}", subject.text()),
             };
             let (least, time) = self.durations(&phase, system.tick_ns);
+            let fresh = phase.fresh().and_then(|bound| self.fresh(&bound, system.tick_ns));
             let machine = phase.machine().map(|name| Named { text: name.text().to_string(), span: self.span(&name) });
             let several = actions.len() > 1;
             for action in actions {
@@ -402,7 +432,7 @@ impl Reader {
                     self.faults.push(fault::duplicate(span, "phase", &name, first.span));
                 }
                 let (drawn, subject, machine) = (drawn.clone(), subject.text().to_string(), machine.clone());
-                let phase = Phase { name, drawn, subject, action, time, least, machine, span };
+                let phase = Phase { name, drawn, subject, action, time, least, fresh, machine, span };
                 system.components[index].phases.push(phase);
             }
         }

@@ -72,9 +72,9 @@ fn least(system: &System, first: usize, channels: &[usize]) -> u64 {
     age + system.components[at].phases.iter().skip(entered).map(|phase| phase.least).sum::<u64>()
 }
 
-struct Chain<'a> {
-    system: &'a System,
-    analysis: &'a Analysis<'a>,
+pub(super) struct Chain<'a> {
+    pub(super) system: &'a System,
+    pub(super) analysis: &'a Analysis<'a>,
 }
 
 impl Chain<'_> {
@@ -83,7 +83,7 @@ impl Chain<'_> {
     }
 
     /// The longest cycle of a component, from its release or the arrival of what it awaits.
-    fn response(&self, component: usize) -> Result<u64, String> {
+    pub(super) fn response(&self, component: usize) -> Result<u64, String> {
         if let Err(reason) = &self.analysis.blocking[component] {
             return Err(format!("{}: {reason}", self.name(component)));
         }
@@ -98,7 +98,7 @@ impl Chain<'_> {
     }
 
     /// The longest time between the beginnings of two cycles that follow each other; `depth` ends circles of tasks that await each other.
-    fn gap(&self, component: usize, depth: usize) -> Result<u64, String> {
+    pub(super) fn gap(&self, component: usize, depth: usize) -> Result<u64, String> {
         let response = self.response(component)?;
         match self.system.components[component].timing {
             Timing::Synchronous { period, .. } => Ok(period),

@@ -7,7 +7,9 @@
 //! INVARIANT: a response or an age that is given is never exceeded while every task keeps its deadline; none is given otherwise.
 
 mod ages;
+mod fresh;
 mod locks;
+mod missed;
 mod response;
 
 use std::cmp::Ordering;
@@ -16,10 +18,12 @@ use syntax::Diagnostic;
 
 use crate::build::busy;
 use crate::fault;
-use crate::system::{System, Timing, length};
+use crate::system::{System, Timing, Tolerance, length};
 use response::{Demand, on_one, on_several};
 
 pub use ages::{Age, Way};
+pub use fresh::{Fresh, bounded};
+pub use missed::Missed;
 
 /// What the tasks share, and which goes first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -60,6 +64,8 @@ pub struct Times {
     pub overloaded: bool,
     /// One for each age bound, in the order of the chart.
     pub ages: Vec<Age>,
+    /// One for each reading with a bound, in the order of the chart ([`bounded`]).
+    pub fresh: Vec<Fresh>,
 }
 
 /// The times of a task, in ticks.
@@ -80,6 +86,26 @@ pub struct TaskTimes {
     pub response: Option<u64>,
     /// What follows for its deadline.
     pub verdict: Verdict,
+    /// How many deadlines it misses, if it may miss some.
+    pub missed: Option<Missed>,
+}
+
+impl TaskTimes {
+    /// Whether it misses no more deadlines than the chart allows; none: that is not known.
+    pub fn keeps(&self, tolerance: Option<&Tolerance>) -> Option<bool> {
+        let Some((tolerance, missed)) = tolerance.zip(self.missed.as_ref()) else {
+            return match self.verdict {
+                Verdict::Meets | Verdict::None => Some(true),
+                Verdict::Misses => Some(false),
+                Verdict::Open(_) => None,
+            };
+        };
+        match missed.most {
+            Some(most) if most <= tolerance.missed => Some(true),
+            Some(_) if missed.certain => Some(false),
+            _ => None,
+        }
+    }
 }
 
 /// Whether a task keeps its deadline.
@@ -142,12 +168,17 @@ pub fn times(system: &System, platform: Platform) -> Times {
         blocking: analysis.blocking[index].as_ref().ok().copied(),
         response: analysis.responses[index],
         verdict: analysis.verdict(index),
+        missed: system.components[index]
+            .tolerance
+            .as_ref()
+            .map(|tolerance| missed::missed(&analysis, index, tolerance, &analysis.verdict(index))),
     });
     let tasks: Vec<TaskTimes> = tasks.collect();
     // A sum of nothing is -0.
     let load = 0.0 + loads.iter().flatten().sum::<f64>();
     let ages = ages::ages(system, &analysis);
-    Times { platform, tasks, load, overloaded, ages }
+    let fresh = fresh::fresh(system, &analysis);
+    Times { platform, tasks, load, overloaded, ages, fresh }
 }
 
 /// What a chart must be told: of its age bounds, and of its processors, if it says how many there are.
@@ -159,6 +190,18 @@ pub(crate) fn faults(system: &System) -> Vec<Diagnostic> {
         if let Some(least) = age.least.filter(|least| *least > bound.limit) {
             let (limit, least) = (shown(bound.limit), shown(least));
             faults.push(fault::times::never_fresh(bound.span, &bound.from.text, &bound.to.text, &limit, &least));
+        }
+    }
+    for (reading, reader) in fresh::readings(system) {
+        let (phase, bound) = reading;
+        let channel = &system.channels[reader.channel];
+        let ends = [(channel.to, "reads"), (channel.from, "writes")].map(|(end, does)| {
+            let component = &system.components[end];
+            (component.timing.period(), format!("`{}` {does}", component.name))
+        });
+        if let Some((Some(period), who)) = ends.iter().find(|(period, _)| period.is_some_and(|one| one > bound.limit)) {
+            let (limit, period) = (shown(bound.limit), shown(*period));
+            faults.push(fault::times::seldom_fresh(bound.span, &phase.name, &limit, who, &period));
         }
     }
     faults
@@ -178,6 +221,9 @@ pub fn told(system: &System, times: &Times, place: syntax::Span) -> Vec<Diagnost
         let Timing::Synchronous { deadline, .. } = component.timing else { continue };
         // A cycle that is too long by itself is told anyway.
         if task.execution.1 > component.available().unwrap_or(deadline) || task.verdict == Verdict::Meets {
+            continue;
+        }
+        if task.keeps(component.tolerance.as_ref()) == Some(true) {
             continue;
         }
         let certain = task.verdict == Verdict::Misses;

@@ -24,6 +24,8 @@ pub enum Property {
     Offset,
     /// Of a synchronous component: when a cycle has to be done.
     Deadline,
+    /// Of a synchronous component: how many deadlines it may miss, as in `1 of 20`.
+    Misses,
     /// Of an asynchronous component: the channel whose data it awaits.
     Awaits,
     /// Of a channel: `swinging buffer`, `queue` or `shared value`.
@@ -48,6 +50,8 @@ pub enum Property {
     PhaseTime(usize),
     /// Of the phase of this number of a component: what it is called.
     PhaseName(usize),
+    /// Of the reading of this number of a component: how often it brings something new.
+    PhaseFresh(usize),
     /// Of the elaboration of this number of a component: the machine that it is done by.
     PhaseMachine(usize),
 }
@@ -105,6 +109,14 @@ fn length(value: &str, varies: bool) -> Result<String, String> {
         _ if varies => Err(format!("`{value}` is no time: a number and ns, us, ms or s, as in `2.5 ms` or `3..9 ms`")),
         _ => Err(format!("`{value}` is no time: a number and ns, us, ms or s, as in `2.5 ms`")),
     }
+}
+
+/// How many deadlines may be missed, as in `1 of 20`.
+fn tolerance(value: &str) -> Result<String, String> {
+    let stated = |system: &SystemChart| Some(system.components().next()?.kind()?.tolerance()?.syntax().clone());
+    let value = format!("misses {}", value.trim());
+    let probe = alone("component c synchronous period 1 ms", &value, "endcomponent", stated);
+    probe.map_err(|()| format!("`{}` does not say how many deadlines may be missed, as `1 of 20` does", &value[7..]))
 }
 
 fn domain(value: &str) -> Result<String, String> {
@@ -211,6 +223,25 @@ impl Work {
                 let value = read(value, fixed)?;
                 self.set_quantity(id, DEADLINE_KW, value.as_deref())
             }
+            Property::Misses => {
+                let value = read(value, tolerance)?;
+                let timing = self.timing(id)?;
+                if !timing.is_synchronous() {
+                    return Err("an asynchronous component has no deadlines".to_string());
+                }
+                self.set_end(timing.tolerance().map(|one| extent(one.syntax())), extent(timing.syntax()).end, value);
+                Ok(())
+            }
+            Property::PhaseFresh(at) => {
+                let value = read(value, fixed)?.map(|value| format!("every {value} fresh"));
+                let phase = self.phase(id, at)?;
+                if phase.kind() != Some(PhaseKind::Read) {
+                    return Err("only a reading brings something new".to_string());
+                }
+                let end = extent(phase.syntax()).end;
+                self.set_end(phase.fresh().map(|one| extent(one.syntax())), end, value);
+                Ok(())
+            }
             Property::Awaits => {
                 let timing = self.timing(id)?;
                 if timing.is_synchronous() {
@@ -289,6 +320,16 @@ impl Work {
         }
     }
 
+    /// What stands at the end of a node: set, changed or taken away.
+    fn set_end(&mut self, present: Option<Bytes>, end: usize, value: Option<String>) {
+        match (present, value) {
+            (Some(bytes), Some(value)) => self.replace(bytes, &value),
+            (Some(bytes), None) => self.take_away(bytes),
+            (None, Some(value)) => self.replace(end..end, &format!(" {value}")),
+            (None, None) => {}
+        }
+    }
+
     /// Takes bytes away, with the blanks before them.
     fn take_away(&mut self, bytes: Bytes) {
         let start = self.text[..bytes.start].trim_end_matches([' ', '\t']).len();
@@ -331,7 +372,8 @@ impl Work {
         let (first, word, goes) = match (value, timing.is_synchronous()) {
             ("synchronous", true) | ("asynchronous", false) => return Ok(()),
             ("asynchronous", true) => {
-                let goes: Vec<Bytes> = [PERIOD_KW, OFFSET_KW, DEADLINE_KW].into_iter().filter_map(quantity).collect();
+                let lengths = [PERIOD_KW, OFFSET_KW, DEADLINE_KW].into_iter().filter_map(quantity);
+                let goes: Vec<Bytes> = lengths.chain(timing.tolerance().map(|one| extent(one.syntax()))).collect();
                 (word(node, SYNCHRONOUS_KW), "asynchronous", goes)
             }
             ("synchronous", false) => {
@@ -365,9 +407,10 @@ impl Work {
                 self.take_away(start..bytes.end);
             }
             (None, Some(value)) => {
-                // An offset stands before the deadline.
+                // An offset stands before the deadline, and that before what may be missed.
                 let period = place(timing.quantity(PERIOD_KW)).map(|bytes| bytes.end);
-                let end = if kind == OFFSET_KW { period } else { None };
+                let offset = place(timing.quantity(OFFSET_KW)).map(|bytes| bytes.end);
+                let end = if kind == OFFSET_KW { period } else { offset.or(period) };
                 let end = end.unwrap_or_else(|| extent(timing.syntax()).end);
                 self.replace(end..end, &format!(" {spelled} {value}"));
             }

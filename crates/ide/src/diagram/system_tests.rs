@@ -43,10 +43,25 @@ fn times_of_components() {
     both(&set("look", Property::Period, " 20 ms "), "synchronous period 20 ms offset 1 ms");
     both(&set("look", Property::Deadline, "8 ms"), "synchronous period 10 ms offset 1 ms deadline 8 ms");
     both(&none("look", Property::Offset), "synchronous period 10 ms");
+    both(&set("look", Property::Misses, "1 of 20"), "synchronous period 10 ms offset 1 ms misses 1 of 20");
+    let weak = SYSTEM.replace("offset 1 ms", "offset 1 ms misses 2 of 9");
+    let then = |operation: &Operation| {
+        let drawn = drawn(&weak, "s", operation, &BTreeMap::new()).unwrap_or_else(|reason| panic!("{reason}"));
+        crate::edited(&weak, &drawn.edit.into_iter().collect::<Vec<_>>())
+    };
+    assert_eq!(then(&none("look", Property::Misses)), SYSTEM);
+    assert!(then(&set("look", Property::Misses, "1 of 5")).contains("offset 1 ms misses 1 of 5 //"));
+    assert!(then(&set("look", Property::Deadline, "8 ms")).contains("offset 1 ms deadline 8 ms misses 2 of 9 //"));
+    assert!(then(&set("look", Property::Timing, "asynchronous")).contains("asynchronous //"));
     both(&set("look", Property::Timing, "asynchronous"), "asynchronous");
     check(&set("look", Property::Timing, "synchronous"), &[]);
     let act = "-component act asynchronous awaits seen";
     check(&set("act", Property::Timing, "synchronous"), &[act, "+component act synchronous period 10 ms"]);
+    assert!(after(&set("look", Property::Misses, "1 of")).is_err());
+    assert!(after(&set("act", Property::Misses, "1 of 20")).is_err());
+    assert!(after(&set("look", Property::PhaseFresh(0), "9 ms")).is_err());
+    let take = ["-read seen as take", "+read seen as take every 9 ms fresh"];
+    check(&set("act", Property::PhaseFresh(0), "9 ms"), &take);
     check(&none("act", Property::Awaits), &[act, "+component act asynchronous"]);
     check(&set("act", Property::Awaits, "other"), &[act, "+component act asynchronous awaits other"]);
 }

@@ -13,9 +13,13 @@ nodes! {
     Processors = PROCESSORS,
     /// `component NAME "text" KIND … endcomponent`
     Component = COMPONENT,
-    /// `synchronous period Q offset Q deadline Q`, `asynchronous awaits NAME`
+    /// `synchronous period Q offset Q deadline Q misses N of N`, `asynchronous awaits NAME`
     ComponentKind = COMPONENT_KIND,
-    /// `read CHANNEL as NAME Q`, `elaborate NAME Q by NAME {rule}`, `write CHANNEL as NAME Q`
+    /// `misses N of N`: how many deadlines a task may miss.
+    Tolerance = TOLERANCE,
+    /// `every Q fresh`: how often a reading brings something new.
+    FreshBound = FRESH_BOUND,
+    /// `read CHANNEL as NAME Q every Q fresh`, `elaborate NAME Q by NAME {rule}`, `write CHANNEL as NAME Q`
     Phase = PHASE,
     /// `channel NAME : DOMAIN from NAME to NAME, NAME KIND`
     Channel = CHANNEL,
@@ -131,6 +135,10 @@ impl ComponentKind {
     pub fn awaits(&self) -> Option<SyntaxToken> {
         token(self.syntax(), GENERIC_ID)
     }
+    /// How many deadlines it may miss.
+    pub fn tolerance(&self) -> Option<Tolerance> {
+        child(self.syntax())
+    }
     /// The quantity after `period`, `offset` or `deadline`.
     pub fn quantity(&self, word: SyntaxKind) -> Option<Quantity> {
         let word = token(self.syntax(), word)?;
@@ -179,6 +187,10 @@ impl Phase {
     pub fn time(&self) -> Option<Quantity> {
         child(self.syntax())
     }
+    /// How often a reading brings something new.
+    pub fn fresh(&self) -> Option<FreshBound> {
+        child(self.syntax())
+    }
     /// The machine after `by`.
     pub fn machine(&self) -> Option<SyntaxToken> {
         let by = token(self.syntax(), BY_KW)?;
@@ -186,6 +198,24 @@ impl Phase {
     }
     /// The rule of an elaboration.
     pub fn link(&self) -> Option<Link> {
+        child(self.syntax())
+    }
+}
+
+impl Tolerance {
+    /// How many deadlines may be missed.
+    pub fn missed(&self) -> Option<SyntaxToken> {
+        token(self.syntax(), INTEGER)
+    }
+    /// Of how many successive cycles.
+    pub fn cycles(&self) -> Option<SyntaxToken> {
+        tokens(self.syntax()).filter(|token| token.kind() == INTEGER).nth(1)
+    }
+}
+
+impl FreshBound {
+    /// The longest time between two readings that bring something new.
+    pub fn quantity(&self) -> Option<Quantity> {
         child(self.syntax())
     }
 }

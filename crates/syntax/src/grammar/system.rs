@@ -73,8 +73,8 @@ fn length(p: &mut Parser<'_>, varies: bool) {
     }
     if complete {
         // The next line is another item, and a word that goes on here is not a unit.
-        if p.on_new_line() || p.at(EOF) || p.at(DOT) || keyword(p, &[OFFSET_KW, DEADLINE_KW, BY_KW, FROM_KW]).is_some()
-        {
+        let goes_on = [OFFSET_KW, DEADLINE_KW, MISSES_KW, BY_KW, FROM_KW, EVERY_KW, FRESH_KW];
+        if p.on_new_line() || p.at(EOF) || p.at(DOT) || keyword(p, &goes_on).is_some() {
             let found = p.missing();
             p.fault(fault::expected_unit(found));
         } else {
@@ -126,7 +126,7 @@ fn component(p: &mut Parser<'_>) {
     p.finish();
 }
 
-/// `synchronous period Q offset Q deadline Q`, `asynchronous awaits NAME`
+/// `synchronous period Q offset Q deadline Q misses N of N`, `asynchronous awaits NAME`
 fn kind(p: &mut Parser<'_>) {
     p.start(COMPONENT_KIND);
     if eat_word(p, ASYNCHRONOUS_KW) {
@@ -142,11 +142,35 @@ fn kind(p: &mut Parser<'_>) {
                 quantity(p);
             }
         }
+        if keyword(p, &[MISSES_KW]).is_some() {
+            tolerance(p);
+        }
     }
     p.finish();
 }
 
-/// `read NAME as NAME Q`, `elaborate NAME Q by NAME {rule}`, `write NAME as NAME Q`
+/// `misses N of N`: how many deadlines a task may miss
+fn tolerance(p: &mut Parser<'_>) {
+    p.start(TOLERANCE);
+    p.bump_as(MISSES_KW);
+    if p.expect(INTEGER, "as the number of deadlines that may be missed")
+        && expect_word(p, OF_KW, "behind the number of deadlines that may be missed")
+    {
+        p.expect(INTEGER, "as the number of successive cycles");
+    }
+    p.finish();
+}
+
+/// `every Q fresh`: how often a reading brings something new
+fn fresh_bound(p: &mut Parser<'_>) {
+    p.start(FRESH_BOUND);
+    p.bump_as(EVERY_KW);
+    quantity(p);
+    expect_word(p, FRESH_KW, "behind the time within which something new comes");
+    p.finish();
+}
+
+/// `read NAME as NAME Q every Q fresh`, `elaborate NAME Q by NAME {rule}`, `write NAME as NAME Q`
 fn phase(p: &mut Parser<'_>) {
     let Some(word) = keyword(p, &[READ_KW, ELABORATE_KW, WRITE_KW]) else {
         let starts = |p: &Parser<'_>| keyword(p, &[READ_KW, ELABORATE_KW, WRITE_KW]).is_some();
@@ -161,6 +185,9 @@ fn phase(p: &mut Parser<'_>) {
         }
         if p.at(INTEGER) || p.at(REAL) {
             length(p, true);
+        }
+        if word == READ_KW && keyword(p, &[EVERY_KW]).is_some() {
+            fresh_bound(p);
         }
         if eat_word(p, BY_KW) {
             shape_name(p);
@@ -343,6 +370,59 @@ mod tests {
             !expected-token
             !expected-token
             !expected-shape"#]],
+        );
+    }
+
+    #[test]
+    fn what_may_be_missed_and_how_often_something_new_comes() {
+        check(
+            "chart C system s component c synchronous period 10 ms deadline 9 ms misses 1 of 20 read every as fresh 1 ms every 20 ms fresh read x every 5 ms fresh elaborate misses 1 ms endcomponent endsystem",
+            expect![[r#"
+                chart
+                C
+                SYSTEM_CHART(
+                  system
+                  s
+                  COMPONENT(
+                    component
+                    c
+                    COMPONENT_KIND(
+                      synchronous
+                      period
+                      QUANTITY(10 ms)
+                      deadline
+                      QUANTITY(9 ms)
+                      TOLERANCE(misses 1 of 20))
+                    PHASE(
+                      read
+                      every
+                      as
+                      fresh
+                      QUANTITY(1 ms)
+                      FRESH_BOUND(every QUANTITY(20 ms) fresh))
+                    PHASE(read x FRESH_BOUND(every QUANTITY(5 ms) fresh))
+                    PHASE(elaborate misses QUANTITY(1 ms))
+                    endcomponent)
+                  endsystem)"#]],
+        );
+        check(
+            "chart C system s component c synchronous period 10 misses of 20 read x every fresh write y every 5 ms fresh endcomponent endsystem",
+            expect![[r#"
+                chart
+                C
+                SYSTEM_CHART(
+                  system
+                  s
+                  COMPONENT(
+                    component
+                    c
+                    COMPONENT_KIND(synchronous period QUANTITY(10) TOLERANCE(misses))
+                    ERROR(of 20 read x every fresh write y every 5 ms fresh)
+                    endcomponent)
+                  endsystem)
+                !expected-token
+                !expected-token
+                !expected-shape"#]],
         );
     }
 

@@ -1,14 +1,14 @@
 //! `groundstate chart times FILE`: what can be told of a system's times before anything runs.
 //!
-//! In: a chart with a system. Out: a line for each task and for each age bound. Exit code: 1 if a task misses its deadline for certain or
-//! the processors cannot do the work, 3 if the analysis does not show that all deadlines and ages hold.
+//! In: a chart with a system. Out: a line for each task and for each bound. Exit code: 1 if a task misses its deadline for certain or
+//! the processors cannot do the work, 3 if the analysis does not show that all deadlines and bounds hold.
 
 use std::io::Write;
 use std::path::PathBuf;
 
 use ::chart::system::System;
-use ::chart::system::{Timing, length};
-use ::chart::times::{Order, Platform, Times, Verdict, times, told};
+use ::chart::system::{Timing, Tolerance, length};
+use ::chart::times::{Order, Platform, TaskTimes, Times, Verdict, bounded, times, told};
 use clap::{Args, ValueEnum};
 use wire::TimesTold;
 
@@ -70,11 +70,14 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
 }
 
 fn exit(system: &System, times: &Times) -> Exit {
-    let misses = times.tasks.iter().any(|task| task.verdict == Verdict::Misses);
+    let tasks = || system.components.iter().zip(&times.tasks);
+    let keeps: Vec<Option<bool>> = tasks().map(|(one, task)| task.keeps(one.tolerance.as_ref())).collect();
+    let misses = keeps.contains(&Some(false));
     let ages = system.bounds.iter().zip(&times.ages);
     let ages_hold = ages.into_iter().all(|(bound, age)| age.most.is_some_and(|most| most <= bound.limit));
-    let open = times.tasks.iter().any(|task| matches!(task.verdict, Verdict::Open(_)));
-    match (misses || times.overloaded, open || !ages_hold) {
+    let fresh = bounded(system).zip(&times.fresh);
+    let fresh_holds = fresh.into_iter().all(|((_, bound), one)| one.most.is_some_and(|most| most <= bound.limit));
+    match (misses || times.overloaded, keeps.contains(&None) || !ages_hold || !fresh_holds) {
         (true, _) => Exit::Model,
         (false, true) => Exit::Unknown,
         (false, false) => Exit::Good,
@@ -88,6 +91,20 @@ fn processors(platform: Platform) -> String {
         Order::Deadline => "shorter deadlines first",
     };
     format!("{} {word}, {order}", platform.processors)
+}
+
+/// What follows for the deadline of a task.
+fn verdict(task: &TaskTimes, tolerance: Option<&Tolerance>) -> String {
+    let late = match task.verdict {
+        Verdict::Meets => return "meets".to_string(),
+        Verdict::None => return String::new(),
+        Verdict::Misses => "misses",
+        Verdict::Open(_) => "not shown",
+    };
+    match (task.keeps(tolerance), tolerance) {
+        (Some(true), Some(one)) => format!("misses at most {} of {}", one.missed, one.cycles),
+        _ => late.to_string(),
+    }
 }
 
 /// The table for people.
@@ -115,12 +132,7 @@ fn table(system: &System, times: &Times) -> String {
             or_dash(task.blocking),
             or_dash(task.response),
             or_dash(deadline),
-            match &task.verdict {
-                Verdict::Meets => "meets".to_string(),
-                Verdict::Misses => "misses".to_string(),
-                Verdict::Open(_) => "not shown".to_string(),
-                Verdict::None => String::new(),
-            },
+            verdict(task, component.tolerance.as_ref()),
         ]);
     }
     let mut out = format!("{}\n", processors(times.platform));
@@ -132,6 +144,26 @@ fn table(system: &System, times: &Times) -> String {
         out.push('\n');
     }
     out += &format!("load: {:.2} processors\n", times.load);
+    for (component, task) in system.components.iter().zip(&times.tasks) {
+        let Some((tolerance, missed)) = component.tolerance.zip(task.missed.as_ref()) else { continue };
+        let (allowed, of) = (tolerance.missed, tolerance.cycles);
+        let line = match (missed.most, &missed.reason) {
+            (Some(most), _) if most <= allowed => format!("at most {most}: within {allowed} of {of}"),
+            (Some(most), _) if missed.certain => format!("{most} in some run, more than {allowed} of {of}"),
+            (Some(most), _) => format!("not shown within {allowed} of {of}: at most {most}"),
+            (None, reason) => format!("not shown within {allowed} of {of}: {}", reason.as_deref().unwrap_or_default()),
+        };
+        out += &format!("deadlines missed by {}: {line}\n", component.name);
+    }
+    for ((phase, bound), one) in bounded(system).zip(&times.fresh) {
+        let limit = shown(bound.limit);
+        let line = match (one.most, &one.reason) {
+            (Some(most), _) if most <= bound.limit => format!("every {}: within {limit}", shown(most)),
+            (Some(most), _) => format!("not shown within {limit}: at most {}", shown(most)),
+            (None, reason) => format!("not shown within {limit}: {}", reason.as_deref().unwrap_or_default()),
+        };
+        out += &format!("something new for {}: {line}\n", phase.name);
+    }
     for (bound, age) in system.bounds.iter().zip(&times.ages) {
         let (from, to) = (&bound.from.text, &bound.to.text);
         let limit = shown(bound.limit);

@@ -174,7 +174,8 @@ pub fn general(
     let own = general.program.properties.len();
     // That some run does a thing may be true only of times that the system does not have: a formula of CTL may ask for that.
     // Ages are those of the times as they are drawn, too.
-    let has_ages = system.chart.system.as_ref().is_some_and(|system| !system.bounds.is_empty());
+    let has_ages =
+        system.chart.system.as_ref().is_some_and(|system| !system.bounds.is_empty() || system.has_fresh_bounds());
     let mut left_out = has_ages;
     left_out |= leave_out(&mut asked, own, &|kind| kind == PropertyKind::Ctl);
     let mut searched = search(&asked.program, &options, *agents, (&mut watch, until))?;

@@ -122,6 +122,8 @@ const CONSTRUCTS: &[(SyntaxKind, &str)] = &[
     (AGE_BOUND, "age_bound"),
     (CONNECTION, "connection"),
     (QUANTITY, "quantity"),
+    (TOLERANCE, "tolerance"),
+    (FRESH_BOUND, "fresh_bound"),
 ];
 
 /// The constructs of a text: name, first byte, end.
