@@ -1,3 +1,5 @@
+// Tests of what goes into composite states by dragging.
+
 import { expect, test } from 'vitest'
 
 import { frames, holders, moveInto } from './gestures'

@@ -1,3 +1,5 @@
+// Tests of places in a model and the shapes that they speak of.
+
 import { expect, test } from 'vitest'
 
 import { type Around, meant, shapesAt } from './places'

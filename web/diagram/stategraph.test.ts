@@ -1,3 +1,5 @@
+// Tests of state graphs: listings that are cut short, places, keys, lines.
+
 import { expect, test } from 'vitest'
 
 import { type ListedState, edgePaths, edgesOf, listing, neighbour, placed } from './stategraph'

@@ -28,7 +28,7 @@ machine part "Part"
 endmachine
 `
 
-const ROUNDS = process.env['GROUNDSTATE_FULL'] ? 1_000 : 40
+const ROUNDS = process.env['GROUNDSTATE_FULL'] ? 400 : 40
 
 let browser: Browser
 let studio: Served

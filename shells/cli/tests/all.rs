@@ -15,6 +15,7 @@ mod interrupts;
 mod lsp;
 mod lsp_bad_input;
 mod lsp_disorder;
+mod lsp_recorded;
 mod owed;
 mod refinements;
 mod schema;
