@@ -43,6 +43,12 @@ test('what lies in an else is not in the state that was tested', () => {
   check(at('x := 1', 'if light = OFF then /* else */ x := 1 endif'), 'off', null, null, 'off')
 })
 
+test('the rule around a place is known', () => {
+  const inner = 'if light = OFF then r_count[] endif'
+  expect(shapesAt([lamp], at('r_count[]', inner, `rule r_lamp = ${inner}`))?.rule).toBe('r_lamp')
+  expect(shapesAt([lamp], at('r_count[]', inner))?.rule).toBe(null)
+})
+
 test('what no text names has no shape', () => {
   check(at('skip', 'if other = OFF then skip endif'), null, null, null, null)
   check(at('skip', 'if light != OFF then skip endif'), null, null, null, null)

@@ -19,6 +19,8 @@ export interface Shapes {
   state: string | null
   guard: string | null
   action: string | null
+  // The declared rule around the place.
+  rule: string | null
 }
 
 const compact = (text: string): string => text.replace(/\s+/g, '')
@@ -71,11 +73,12 @@ export function shapesAt(drawings: readonly Drawing[], around: readonly Around[]
   let best: Shapes | null = null
   for (const drawing of drawings) {
     const control = controlOf(drawing)
-    const found: Shapes = { drawing: drawing.name, state: null, guard: null, action: null }
+    const found: Shapes = { drawing: drawing.name, state: null, guard: null, action: null, rule: null }
     let value: string | null = null
     for (const { text, inner } of bared) {
       const rule = CALL.exec(text)?.[1] ?? RULE.exec(text)?.[1]
       if (rule !== undefined) found.action ??= drawing.picture.boxes.find((box) => isAction(box, rule))?.id ?? null
+      found.rule = RULE.exec(text)?.[1] ?? found.rule
       const condition = CONDITION.exec(text)?.[1]
       if (condition !== undefined) {
         found.guard ??= drawing.picture.boxes.find((box) => isGuard(box, condition))?.id ?? null

@@ -73,6 +73,21 @@ test('what scenarios covered is marked on the shapes, until the model is another
   writeFileSync(path('Lamp.asm'), model)
 })
 
+test('of a rule that never ran nothing is covered', async () => {
+  const model = readFileSync(path('Lamp.asm'), 'utf8')
+  for (const name of ['Press.avalla', 'Held.avalla']) rmSync(path(name), { force: true })
+  writeFileSync(path('Lamp.asm'), model.replace(/\tr_lamp\[\]/, '\tif held then r_lamp[] endif'))
+  writeFileSync(path('Idle.avalla'), 'scenario Idle\nload Lamp.asm\nset held := false;\nstep\ncheck light = OFF;\n')
+  await page.waitForTimeout(600)
+  await start('Test')
+  for (const id of ['off', 'on', 'pressed', 'held', 'count']) await covered(id, 'uncovered').waitFor({ timeout: 20_000 })
+  expect(await page.locator('.box.covered').count()).toBe(0)
+  rmSync(path('Idle.avalla'))
+  writeFileSync(path('Lamp.asm'), model)
+  writeFileSync(path('Press.avalla'), SCENARIO)
+  await page.waitForTimeout(600)
+})
+
 test('mutants that nobody notices are marked on the shapes and lead to their place', async () => {
   rmSync(path('Held.avalla'), { force: true })
   await start('Mutate')

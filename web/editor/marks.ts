@@ -62,8 +62,9 @@ interface Found {
   message: string
   severity: Fault['severity']
   code: string
-  // Of what was not covered: which part of its rule.
+  // Of what was not covered: which part of which rule.
   what: string
+  rule: string
 }
 
 interface SelectionRange {
@@ -75,6 +76,9 @@ interface SelectionRange {
 const PLACES = 4_000
 
 const before = (a: Position, b: Position): boolean => a.line < b.line || (a.line === b.line && a.character <= b.character)
+
+// A rule that never ran at all.
+const WHOLE = 'the whole'
 
 // That no branch was taken says nothing of what is in the branches.
 const isBeside = (item: Found): boolean => item.what === 'branch `no branch`'
@@ -93,6 +97,9 @@ export class Marks {
   // The coverage of charts, by their URIs.
   readonly covered = new Store<{ of: ReadonlyMap<string, Covered> }>({ of: new Map() })
 
+  // When texts were last another.
+  private readonly changed = new Map<string, number>()
+
   constructor(private readonly studio: Studio) {}
 
   // What a job found, by the files that it is in.
@@ -104,13 +111,13 @@ export class Marks {
 
   private found(job: Job): Map<string, Found[]> {
     const out = new Map<string, Found[]>()
-    const note = (place: LinePlace, message: string, severity: Fault['severity'], code: string, what = ''): void => {
+    const note = (place: LinePlace, message: string, severity: Fault['severity'], code: string, what = '', rule = ''): void => {
       const file = this.studio.named(place.file)
-      if (file) out.set(file.uri, [...(out.get(file.uri) ?? []), { range: rangeOf(place), message, severity, code, what }])
+      if (file) out.set(file.uri, [...(out.get(file.uri) ?? []), { range: rangeOf(place), message, severity, code, what, rule }])
     }
     for (const { finding } of findings(job)) note(finding, finding.help ? `${finding.message}\nhelp: ${finding.help}` : finding.message, 'warning', finding.id)
     for (const mutant of mutants(job)) if (mutant.outcome === 'survived') note(mutant, mutantTold(mutant), 'warning', mutant.operator)
-    for (const { uncovered } of coverages(job)) for (const item of uncovered) note(item, words.marks.uncovered(item.what, item.rule), 'info', 'uncovered', item.what)
+    for (const { uncovered } of coverages(job)) for (const item of uncovered) note(item, words.marks.uncovered(item.what, item.rule), 'info', 'uncovered', item.what, item.rule)
     return out
   }
 
@@ -124,7 +131,8 @@ export class Marks {
       const model = uri === undefined ? undefined : this.studio.file(uri)
       const chart = model && this.studio.sibling(model, 'chart')
       const drawings = chart && this.studio.chart(chart.uri)?.store.get().pictures?.drawings
-      if (!model || !chart || !drawings) continue
+      // What a job said of another text is said of no shape.
+      if (!model || !chart || !drawings || (this.changed.get(model.uri) ?? 0) >= job.began) continue
       const items = found.get(model.uri) ?? []
       const told = items.filter(({ code }) => code !== 'uncovered')
       const shapes = await this.shapes(model, drawings, told.map(({ range }) => range.start))
@@ -141,6 +149,7 @@ export class Marks {
 
   // The coverage of a chart goes with the text that it was of.
   drop(uri: string): void {
+    this.changed.set(uri, Date.now())
     const { of } = this.covered.get()
     const chart = this.studio.file(uri)?.kind === 'model' ? uri.replace(/\.asm$/, '.chart') : uri
     if (of.has(chart)) this.covered.set({ of: new Map([...of].filter(([known]) => known !== chart)) })
@@ -181,6 +190,8 @@ export class Marks {
       note(shapes, null)
       const here = at[index]
       // The parts of what never ran are not told one by one.
+      // Of a rule that never ran only the name is told.
+      for (const item of missing) if (item.what === WHOLE && shapes?.rule === item.rule) note(shapes, item.message)
       for (const item of missing) if (!isBeside(item) && here && before(item.range.start, here) && before(here, item.range.end)) note(shapes, item.message)
     })
     const own = await this.shapes(model, drawings, missing.map(({ range }) => range.start))

@@ -222,6 +222,7 @@ export class Studio {
   private changedOutside({ path, hash, text }: Changed): void {
     const file = this.store.get().files.find((file) => file.path === path)
     const doc = file && this.docs.get(file.uri)
+    if (file) this.marks.drop(file.uri)
     if (doc) doc.event(text === null ? { kind: 'gone' } : { kind: 'seen', hash, text })
     this.redraw()
   }
