@@ -76,8 +76,8 @@ fn each_level_keeps_an_initial_state() {
         &[
             "-\t\tinitial state empty",
             "-\t\tstate loaded {FULL} // up to 3 kg",
-            "+\t\tinitial state loaded {FULL} // up to 3 kg",
             "+\tstate empty",
+            "+\t\tinitial state loaded {FULL} // up to 3 kg",
         ],
     );
 }
