@@ -149,10 +149,9 @@ impl Machine {
     pub fn start(&mut self, environment: &mut dyn Environment) -> Result<(), Fault> {
         let (coverage, exploring, unset) = (self.core.coverage.take(), self.core.exploring, self.core.unset);
         let elsewhere = std::mem::take(&mut self.core.elsewhere);
-        self.core = Core::new(&self.program, &self.limits);
+        self.core = Core { elsewhere, ..Core::new(&self.program, &self.limits) };
         // The caller may still return to an earlier state, in which locations were set to undef.
         (self.core.coverage, self.core.exploring, self.core.unset) = (coverage, exploring, unset);
-        self.core.elsewhere = elsewhere;
         self.steps = 0;
         self.settled = false;
         self.execute(environment, |executor, _| executor.start())
@@ -292,11 +291,10 @@ impl Machine {
 
     /// Throws code away that takes a function for a constant which has other values now. The next code relies on it no more.
     fn look_again(&mut self) {
-        let Machine { core, engine, .. } = self;
-        for code in &mut engine.codes {
-            let changed = code.engine.as_ref().map(|engine| engine.code().unsettled(core)).unwrap_or_default();
+        for code in &mut self.engine.codes {
+            let changed = code.engine.as_ref().map(|engine| engine.code().unsettled(&self.core)).unwrap_or_default();
             if !changed.is_empty() {
-                core.elsewhere.add_varying(&changed);
+                self.core.elsewhere.add_varying(&changed);
                 (code.tried, code.engine) = (false, None);
             }
         }
