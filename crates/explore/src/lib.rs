@@ -27,6 +27,6 @@ pub use explorer::sighting::{Met, Sighting};
 pub use memory::condition::Truth;
 pub use packed::interner::Interner;
 pub use packed::widening::Widening;
-pub use packed::words::{Bits, Overwrite};
+pub use packed::words::{Bits, Overwrite, apply};
 pub use settings::{Settings, Trouble};
 pub use starts::{Start, Starts};

@@ -27,6 +27,8 @@ pub struct Settings {
     pub engine: EngineChoice,
     /// The code of the steps, once an explorer has compiled them.
     pub code: SharedCode,
+    /// Collections get numbers, and no step changes a piece of one: for who goes through sets of states, or permutes them.
+    pub numbered: bool,
     /// Looked at between the alternatives of a state, of which there may be many.
     pub interrupt: Interrupt,
     /// What happens within steps is told: see [`crate::Explorer::sightings`].

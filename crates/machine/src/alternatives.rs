@@ -8,6 +8,8 @@ use std::collections::BTreeMap;
 use program::{FunctionId, Program};
 use syntax::Span;
 
+use crate::layout::LocationIndex;
+use crate::pieces::{Edit, Piece};
 use crate::value::Value;
 
 /// The values that an input takes, where they are not all those of its domain.
@@ -43,6 +45,15 @@ pub trait Alternatives {
 
     /// A location is written that may have to have its initial value first.
     fn write(&mut self, found: Option<u32>, kept: bool);
+
+    /// Whether the collections in a function's locations are kept in pieces, so that one can be looked at or changed by itself.
+    fn keeps_pieces(&self, function: FunctionId) -> bool;
+
+    /// A piece of a collection that is kept in pieces is looked at: as it was before the step.
+    fn look_at_piece(&mut self, location: LocationIndex, piece: Piece<'_>);
+
+    /// A location is overwritten, perhaps by an edit of what it held before the step.
+    fn overwrite(&mut self, function: FunctionId, location: LocationIndex, edit: Option<Edit>);
 
     /// The elements of a dynamic domain are looked at.
     fn look_at_carriers(&mut self);

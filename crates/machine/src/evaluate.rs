@@ -266,6 +266,11 @@ impl<'a> Executor<'a> {
     /// The connectives, which do not evaluate all their operands; every other builtin is applied to values.
     fn evaluate_builtin(&mut self, builtin: Builtin, arguments: &'a [TermId], id: TermId) -> Outcome<Value> {
         use Value::{Boolean, Integer};
+        if self.core.in_pieces
+            && let Some(value) = self.evaluate_piece(builtin, arguments, id)?
+        {
+            return Ok(value);
+        }
         match (builtin, arguments) {
             (Builtin::And | Builtin::Or, [left, right]) => self.and_or(builtin, *left, *right, Self::evaluate),
             (Builtin::Implies, [premise, conclusion]) => self.implication(*premise, *conclusion, Self::evaluate),

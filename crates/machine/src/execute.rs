@@ -63,6 +63,8 @@ pub(crate) struct Core {
     pub observations: Option<Box<Observations>>,
     /// The initial values of functions: index into the program's initials, by function.
     pub initials: Vec<Option<u32>>,
+    /// Whether collections are kept in pieces: see [`crate::pieces`].
+    pub in_pieces: bool,
     /// The initial state, where initial values that are evaluated later may read it.
     pub origin: Option<Box<Store>>,
     /// By function: its locations are read without asking anybody (but one that is undef may yet have an initial

@@ -209,6 +209,11 @@ impl Machine {
         self.core.exploring = true;
     }
 
+    /// Whether they hear of pieces of collections from now on, and of edits: see [`crate::Alternatives::keeps_pieces`].
+    pub fn keep_in_pieces(&mut self, keep: bool) {
+        self.core.in_pieces = keep;
+    }
+
     /// From now on the elements of these ranges, by term, are interchangeable: quantifiers look at all of them, and where a
     /// fault may depend on their order [`Machine::order_mattered`] tells. Empty: none are.
     pub fn set_unordered(&mut self, ranges: Arc<[bool]>) {

@@ -19,6 +19,7 @@ use crate::fault::{ClashSide, FaultKind};
 use crate::layout::LocationIndex;
 use crate::location::Location;
 use crate::observe::Observation;
+use crate::pieces::Edit;
 use crate::print::Show;
 use crate::store::Store;
 use crate::update::Clash;
@@ -32,8 +33,12 @@ impl<'a> Executor<'a> {
         match program.rule(id) {
             Rule::Skip => Ok(()),
             Rule::Update { function, arguments, value } => {
+                if self.core.in_pieces && self.perform_edit(id)? {
+                    return Ok(());
+                }
                 let value = self.evaluate(*value)?;
-                self.update(*function, *arguments, value, id)
+                let start = self.gather(*arguments)?;
+                self.update(*function, start, (value, None), id)
             }
             Rule::Call { procedure, arguments } => self.call(*procedure, *arguments, id),
             Rule::TurboCall { procedure, arguments } => {
@@ -128,9 +133,15 @@ impl<'a> Executor<'a> {
         branch.map_or(Ok(()), |branch| self.perform(branch))
     }
 
-    /// Adds the update `function(arguments) := value`.
-    fn update(&mut self, function: FunctionId, arguments: TermList, value: Value, id: RuleId) -> Outcome<()> {
-        let start = self.gather(arguments)?;
+    /// Adds the update `function(arguments) := value`; the arguments stand on the frame stack from `start` on, and the value may
+    /// be that of the state but for an edit.
+    pub fn update(
+        &mut self,
+        function: FunctionId,
+        start: usize,
+        (value, edit): (Value, Option<Edit>),
+        id: RuleId,
+    ) -> Outcome<()> {
         if self.core.observations.is_some() {
             // Whether the update is trivial depends on the present value.
             let found = self.core.store.find(function, &self.core.frames[start..]);
@@ -160,6 +171,11 @@ impl<'a> Executor<'a> {
         let core = &mut *self.core;
         let index = core.store.number(function, &core.frames[start..]);
         core.frames.truncate(start);
+        if core.in_pieces
+            && let Some(alternatives) = self.environment.alternatives()
+        {
+            alternatives.overwrite(function, index, edit);
+        }
         if core.coverage.is_some() {
             core.went(id, usize::from(core.store.values[index as usize] != value));
         }
@@ -246,7 +262,10 @@ impl<'a> Executor<'a> {
         match self.consistent(joined)? {
             // The environment alone decides the value of a monitored location, so this one is lost.
             Some(_) if self.program.function(function).kind == FunctionKind::Monitored => Ok(()),
-            Some(value) => self.update(function, target, value, id),
+            Some(value) => {
+                let start = self.gather(target)?;
+                self.update(function, start, (value, None), id)
+            }
             None => Ok(()),
         }
     }

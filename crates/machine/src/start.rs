@@ -50,6 +50,7 @@ impl Core {
             coverage: None,
             observations: None,
             initials: vec![None; program.functions.len()],
+            in_pieces: false,
             origin: None,
             plain: vec![false; program.functions.len()],
             choices: crate::execute::Choices::default(),

@@ -58,6 +58,7 @@ impl Question {
         let mut settings = Settings { limits: options.limits.clone(), bounds: Arc::new(bounds), ..Settings::default() };
         settings.forgetful = options.forgetful;
         settings.engine = options.steps;
+        settings.numbered = options.symmetry;
         settings.interrupt = options.interrupt.clone();
         let mut plan = Plan {
             settings,

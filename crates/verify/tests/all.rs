@@ -3,6 +3,7 @@
 
 mod blocked;
 mod checkpoint;
+mod collections;
 mod disk;
 mod exploration;
 mod first_step;

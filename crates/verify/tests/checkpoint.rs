@@ -111,6 +111,20 @@ fn agrees(program: &Arc<Program>, options: &Options, steps: u64, workers: &[usiz
     }
 }
 
+/// A sequence that becomes longer again and again, and a set that gets an element of no domain.
+#[test]
+fn what_becomes_too_narrow_on_the_way_is_found_again() {
+    let text = "asm Longer\nimport StandardLibrary\nsignature:\n domain Small subsetof Integer\n controlled a: Seq(Small)\n \
+                controlled n: Integer\n controlled s: Powerset(Prod(Small, Small))\ndefinitions:\n domain Small = {0 : 3}\n \
+                invariant inv_short over a: length(a) < 4\n \
+                main rule r_Main = choose $x in Small with length(a) < 6 and (n < 3 or $x > 1) do par a := append(a, $x) n := n + 1 \
+                s := including(s, ($x, n)) endpar\ndefault init s0:\n function a = []\n function n = 0\n function s = {}\n";
+    let program = lowered(SourceFile::new("Longer.asm", text));
+    for workers in [&[1][..], &[2], &[1, 3]] {
+        agrees(&program, &Options::default(), 100, workers);
+    }
+}
+
 #[test]
 fn an_interrupted_search_ends_as_one_that_is_not() {
     agrees(&program("Swing"), &Options::default(), 20, &[1]);

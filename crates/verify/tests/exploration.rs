@@ -158,7 +158,7 @@ fn limits() -> Limits {
 }
 
 #[derive(Debug, Default)]
-struct Total {
+pub(crate) struct Total {
     models: usize,
     states: usize,
     moves: usize,
@@ -170,6 +170,13 @@ struct Total {
     judged: u64,
     excluded: u32,
     failed: u32,
+}
+
+impl Total {
+    /// Whether there was something to compare, and code made about half of it.
+    pub(crate) fn was_thorough(&self) -> bool {
+        self.moves > 1_000 && self.states > 1_000 && 3 * self.compiled > self.tried
+    }
 }
 
 /// The successors of the machine's state other than itself; `None` if they cannot all be computed.
@@ -219,7 +226,12 @@ fn same(program: &Program, ours: &[(Location, Value)], theirs: &[(Location, Valu
 }
 
 /// Compares the first states of a model.
-fn compare(program: &Arc<Program>, widening: &mut Widening, compiles: bool, total: &mut Total) -> Result<(), Trouble> {
+pub(crate) fn compare(
+    program: &Arc<Program>,
+    widening: &mut Widening,
+    compiles: bool,
+    total: &mut Total,
+) -> Result<(), Trouble> {
     let bounds = bounds(program);
     let ([mut quick, mut slow], mut compiled) = explorers(program, &bounds, widening, compiles)?;
     let mut machine = Machine::new(Arc::clone(program), limits());

@@ -87,6 +87,12 @@ fn a_chain_of_buffers() {
 }
 
 #[test]
+fn channels() {
+    let small = |text: &str| text.replace("capacity = 8", "capacity = 2").replace("Datum = {0 : 7}", "Datum = {0 : 1}");
+    agree(&reference("AlternatingBit.asm", small));
+}
+
+#[test]
 fn faults_and_rest() {
     let report = agree(&model(
         "enum domain Light = {RED | GREEN | YELLOW}

@@ -11,12 +11,16 @@
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-use machine::{Alternatives, Bounds, Choice, Draw, Environment, Fault, FaultKind, LocationRef, TimeUnit, Value};
+use machine::{
+    Alternatives, Bounds, Choice, Draw, Edit, Environment, Fault, FaultKind, LocationRef, Piece, TimeUnit, Value,
+};
 use program::{DomainId, FunctionId, Program};
 use syntax::Span;
 
 use crate::alternatives::told::ChoiceTaken;
-use crate::packed::words::{NOWHERE, REST};
+use crate::packed::collection::Collection;
+use crate::packed::encoding::Encoding;
+use crate::packed::words::{Field, NOWHERE, REST};
 
 /// What kind of alternatives cannot be gone through.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -62,6 +66,31 @@ pub(crate) struct Asked {
     alive: bool,
 }
 
+/// The collections that a packed state holds in pieces.
+#[derive(Debug)]
+pub(crate) struct Pieces(Arc<Encoding>);
+
+impl Pieces {
+    /// Those of an encoding, if it has any.
+    pub fn of(encoding: &Arc<Encoding>) -> Option<Pieces> {
+        encoding.pieces.iter().any(|first| *first > 0).then(|| Pieces(Arc::clone(encoding)))
+    }
+
+    fn of_function(&self, function: FunctionId) -> Option<&Collection> {
+        self.0.collection(function)
+    }
+
+    /// What is looked at for a piece of what a field holds; none where that says nothing.
+    fn look(&self, field: u32, piece: Piece<'_>) -> Option<u32> {
+        // A location whose arguments are in no domain belongs to the rest.
+        let Some(Field { function, .. }) = self.0.fields.get(field as usize) else { return Some(field) };
+        match self.of_function(*function) {
+            Some(collection) => Some(self.0.pieces[field as usize] + collection.place(piece)? as u32),
+            None => Some(field),
+        }
+    }
+}
+
 /// See the module.
 #[derive(Debug)]
 pub struct Branches {
@@ -81,6 +110,10 @@ pub struct Branches {
     /// The functions whose inputs may be in the rest of an initial state.
     pub(crate) inputs_in_rest: BTreeSet<FunctionId>,
     pub(crate) bounds: Arc<Bounds>,
+    /// The collections that stand in pieces.
+    pub(crate) pieces: Option<Pieces>,
+    /// The locations of such that were overwritten, and the edit where that is all that was done to one.
+    edits: Vec<(u32, Option<Edit>)>,
     /// The alternative taken is none.
     pub(crate) dead: bool,
     pub(crate) unbounded: Option<Unbounded>,
@@ -101,6 +134,8 @@ impl Branches {
             origin: None,
             inputs_in_rest: BTreeSet::new(),
             bounds,
+            pieces: None,
+            edits: Vec::new(),
             dead: false,
             unbounded: None,
             chosen: Vec::new(),
@@ -146,6 +181,7 @@ impl Branches {
         self.at = 0;
         self.events.clear();
         self.chosen.clear();
+        self.edits.clear();
         self.dead = false;
         self.unbounded = None;
         self.pass += 1;
@@ -176,6 +212,12 @@ impl Branches {
     fn field(&self, found: Option<u32>, kept: bool) -> u32 {
         let dense = found.and_then(|index| self.fields.get(index as usize));
         dense.copied().unwrap_or(if kept { REST } else { NOWHERE })
+    }
+
+    /// The edit that is all that the step did to a location, if it is so.
+    pub(crate) fn edit_of(&self, location: u32) -> Option<&Edit> {
+        let edited = self.edits.iter().find(|(other, _)| *other == location)?;
+        edited.1.as_ref()
     }
 
     /// The step ends here, since its alternatives cannot be gone through.
@@ -236,6 +278,36 @@ impl Alternatives for Branches {
     fn write(&mut self, found: Option<u32>, kept: bool) {
         if self.field(found, kept) == REST {
             self.look_at(REST);
+        }
+    }
+
+    fn keeps_pieces(&self, function: FunctionId) -> bool {
+        self.pieces.as_ref().is_some_and(|pieces| pieces.of_function(function).is_some())
+    }
+
+    fn look_at_piece(&mut self, location: u32, piece: Piece<'_>) {
+        let field = self.field(Some(location), true);
+        let look = match &self.pieces {
+            Some(pieces) => pieces.look(field, piece),
+            None => Some(field),
+        };
+        if let Some(look) = look {
+            self.look_at(look);
+        }
+    }
+
+    fn overwrite(&mut self, function: FunctionId, location: u32, edit: Option<Edit>) {
+        if !self.keeps_pieces(function) {
+            return;
+        }
+        match self.edits.iter_mut().find(|(other, _)| *other == location) {
+            None => self.edits.push((location, edit)),
+            Some((_, former)) => {
+                // Whether the two clash, and what comes of both, depends on what was there.
+                if former.take().is_some() || edit.is_some() {
+                    self.look_at(self.field(Some(location), true));
+                }
+            }
         }
     }
 

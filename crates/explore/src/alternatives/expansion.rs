@@ -70,7 +70,10 @@ impl Expansion {
         match kind {
             AlternativeKind::Next => {
                 // Most alternatives of a state with many of them leave it as it is.
-                if overwrites.iter().all(|Overwrite { word, clear, set }| state[*word as usize] & clear == *set) {
+                if overwrites
+                    .iter()
+                    .all(|overwrite| overwrite.of(state[overwrite.word as usize]) == state[overwrite.word as usize])
+                {
                     self.stayed += 1;
                     return;
                 }

@@ -9,6 +9,7 @@ use machine::Value;
 use program::DomainId;
 
 use crate::packed::codes::Codes;
+use crate::packed::collection::Collection;
 use crate::packed::encoding::Encoding;
 use crate::packed::interner::View;
 use crate::packed::words::Field;
@@ -24,6 +25,8 @@ pub(crate) enum Codec {
     Literals { domain: DomainId, count: u32, undefined: Option<u32> },
     /// In the order of this list.
     Listed { values: Arc<Vec<Value>>, undefined: Option<u32> },
+    /// Sequences or sets, by their elements.
+    InPlace(Collection),
     /// The number that an interner gives.
     Interned,
 }
@@ -31,8 +34,10 @@ pub(crate) enum Codec {
 impl Codec {
     /// That of a field.
     pub fn of(encoding: &Encoding, field: Field) -> Codec {
-        let Some(Codes::Listed { values, undefined }) = &encoding.codes[field.function.0 as usize] else {
-            return Codec::Interned;
+        let (values, undefined) = match &encoding.codes[field.function.0 as usize] {
+            Some(Codes::Listed { values, undefined }) => (values, undefined),
+            Some(Codes::InPlace(collection)) => return Codec::InPlace(collection.clone()),
+            Some(Codes::Interned) | None => return Codec::Interned,
         };
         let count = values.len() as u32;
         let undefined = undefined.then_some(count);
@@ -57,38 +62,40 @@ impl Codec {
 
     /// The value of a code.
     #[inline]
-    pub fn value(&self, code: u32, view: &mut View) -> Value {
+    pub fn value(&self, code: u64, view: &mut View) -> Value {
         match self {
-            Codec::Integers { low, count, .. } if code < *count => Value::Integer(low + i64::from(code)),
+            Codec::Integers { low, count, .. } if code < u64::from(*count) => Value::Integer(low + code as i64),
             Codec::Booleans { .. } if code < 2 => Value::Boolean(code == 1),
-            Codec::Literals { domain, count, .. } if code < *count => Value::Enum(*domain, code),
+            Codec::Literals { domain, count, .. } if code < u64::from(*count) => Value::Enum(*domain, code as u32),
             Codec::Integers { .. } | Codec::Booleans { .. } | Codec::Literals { .. } => Value::Undef,
             Codec::Listed { values, .. } => values.get(code as usize).cloned().unwrap_or(Value::Undef),
-            Codec::Interned => view.value(code).clone(),
+            Codec::InPlace(collection) => collection.value(code),
+            Codec::Interned => view.value(code as u32).clone(),
         }
     }
 
     /// The code of a value; none where the field has none for it.
     #[inline]
-    pub fn code(&self, value: &Value, view: &mut View) -> Option<u32> {
+    pub fn code(&self, value: &Value, view: &mut View) -> Option<u64> {
         match (self, value) {
-            (Codec::Interned, _) => Some(view.number(value)),
+            (Codec::Interned, _) => Some(u64::from(view.number(value))),
+            (Codec::InPlace(collection), _) => collection.code(value).ok(),
             (
                 Codec::Integers { undefined, .. }
                 | Codec::Booleans { undefined }
                 | Codec::Literals { undefined, .. }
                 | Codec::Listed { undefined, .. },
                 Value::Undef,
-            ) => *undefined,
+            ) => undefined.map(u64::from),
             (Codec::Integers { low, count, .. }, Value::Integer(number)) => {
-                let code = u32::try_from(number.wrapping_sub(*low)).ok()?;
-                (code < *count).then_some(code)
+                let code = u64::try_from(number.wrapping_sub(*low)).ok()?;
+                (code < u64::from(*count)).then_some(code)
             }
-            (Codec::Booleans { .. }, Value::Boolean(truth)) => Some(u32::from(*truth)),
+            (Codec::Booleans { .. }, Value::Boolean(truth)) => Some(u64::from(*truth)),
             (Codec::Literals { domain, count, .. }, Value::Enum(of, literal)) => {
-                (of == domain && literal < count).then_some(*literal)
+                (of == domain && literal < count).then_some(u64::from(*literal))
             }
-            (Codec::Listed { values, .. }, _) => Some(values.binary_search(value).ok()? as u32),
+            (Codec::Listed { values, .. }, _) => Some(values.binary_search(value).ok()? as u64),
             (Codec::Integers { .. } | Codec::Booleans { .. } | Codec::Literals { .. }, _) => None,
         }
     }

@@ -26,7 +26,7 @@ impl Explorer {
             }
         }
         let Some(field) = encoding.rest.filter(|_| !encoding.kept.in_rest.is_empty()) else { return };
-        for (location, value) in &view.rest(encoding.fields[field as usize].code(state)).locations {
+        for (location, value) in &view.rest(encoding.fields[field as usize].code(state) as u32).locations {
             if is_input(program, location) {
                 let index = machine.store_mut().number(location.function, &location.arguments);
                 machine.give(index, location.function, value.clone());
@@ -82,7 +82,7 @@ impl Explorer {
             !encoding.value(field, state, view).is_undef()
         });
         let Some(field) = encoding.rest.filter(|_| !encoding.kept.in_rest.is_empty()) else { return in_fields };
-        let rest = view.rest(encoding.fields[field as usize].code(state));
+        let rest = view.rest(encoding.fields[field as usize].code(state) as u32);
         in_fields || rest.locations.iter().any(|(location, _)| is_input(program, location))
     }
 }

@@ -94,7 +94,7 @@ impl Explorer {
             if !self.settings.forgetful {
                 let tree = &mut self.conditions[condition].parts[part].tree;
                 let answers = self.branches.answers();
-                tree.learn(&self.encoding.fields, state, &self.branches.events, answers, truth.end());
+                tree.learn(&self.encoding.looks, state, &self.branches.events, answers, truth.end());
             }
             if !self.branches.next() {
                 return worst;

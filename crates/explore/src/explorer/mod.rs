@@ -25,7 +25,7 @@ use program::{Expression, FunctionId, FunctionKind, Program, Slot};
 use rustc_hash::FxHashSet;
 use syntax::Span;
 
-use crate::alternatives::branches::{Branches, Unbounded};
+use crate::alternatives::branches::{Branches, Pieces, Unbounded};
 use crate::alternatives::expansion::Expansion;
 use crate::alternatives::kind::AlternativeKind;
 use crate::alternatives::successors::Successors;
@@ -128,7 +128,8 @@ impl Explorer {
         origins.number(&machine);
         let kept = Kept::new(program, &settings, &seen.asked);
         let steady = steady_functions(program, &settings);
-        let encoding = Encoding::new(program, &mut machine, (&seen.rows, &steady), kept, origins.count(), widening);
+        let begin = (origins.count(), !settings.numbered);
+        let encoding = Encoding::new(program, &mut machine, (&seen.rows, &steady), kept, begin, widening);
         let encoding = Arc::new(encoding);
         let mut view = View::new(Arc::clone(interner));
         let starts = match known {
@@ -161,6 +162,9 @@ impl Explorer {
         branches.fields = Arc::clone(&encoding.of_location);
         (branches.rest, branches.origin) = (encoding.rest, encoding.origin);
         branches.inputs_in_rest = encoding.kept.functions_in_rest();
+        // What is observed of a step may depend on more than what it comes to.
+        branches.pieces = Pieces::of(&encoding).filter(|_| !settings.observed);
+        machine.keep_in_pieces(branches.pieces.is_some());
         let conditions =
             settings.conditions.iter().map(|formula| Condition::new(program, &mut machine, formula)).collect();
         let observed = settings.observed;
@@ -268,7 +272,7 @@ impl Explorer {
                 }
             }
             if !self.settings.forgetful {
-                let fields = &self.encoding.fields;
+                let fields = &self.encoding.looks;
                 match attempt {
                     None => self.steps.learn_dead(fields, state, &self.branches),
                     Some(Attempt { kind, overwrites, failed, .. }) => {
@@ -377,12 +381,27 @@ impl Explorer {
         let Explorer { program, machine, branches, encoding, view, .. } = self;
         let mut next = state.to_vec();
         let mut written = vec![0u64; state.len()];
+        let mut edits: Vec<Overwrite> = Vec::new();
         let mut rest_written = machine.creates() || !encoding.kept.in_rest.is_empty();
         encoding.drop_inputs(&mut next, &mut written, view);
         for (location, value) in machine.updates() {
             match encoding.of_location.get(location as usize) {
                 Some(field) if *field < REST => {
                     let field = encoding.fields[*field as usize];
+                    if let Some(edit) = branches.edit_of(location)
+                        && let Some(collection) = encoding.collection(field.function)
+                    {
+                        let made = collection.overwrites(edit, field, state);
+                        let made = made.map_err(|misfit| TooNarrow::of(field.function, misfit))?;
+                        let word = &mut next[field.word as usize];
+                        *word = made.of(*word);
+                        assert!(field.code(&next) == encoding.code(field, value, view)?, "an edit makes another value");
+                        match made.from {
+                            0 => written[field.word as usize] |= made.clear,
+                            _ => edits.push(made),
+                        }
+                        continue;
+                    }
                     field.put(encoding.code(field, value, view)?, &mut next);
                     written[field.word as usize] |= field.mask();
                 }
@@ -408,7 +427,14 @@ impl Explorer {
         }
         let overwrites = written.iter().enumerate().filter(|(_, clear)| **clear != 0);
         attempt.overwrites = overwrites
-            .map(|(word, clear)| Overwrite { word: word as u32, clear: *clear, set: next[word] & clear })
+            .map(|(word, clear)| Overwrite {
+                word: word as u32,
+                clear: *clear,
+                set: next[word] & clear,
+                from: 0,
+                turn: 0,
+            })
+            .chain(edits)
             .collect();
         Ok(())
     }

@@ -161,7 +161,11 @@ impl Orbits {
     }
 
     fn held(&self, coding: Coding<'_>) -> Option<Held> {
-        let Coding::Listed(values) = coding else { return Some(Held::Deep) };
+        let values = match coding {
+            Coding::Listed(values) => values,
+            Coding::Numbered => return Some(Held::Deep),
+            Coding::InPieces => return None,
+        };
         let stays = |value: &Value| self.places.contains_key(value) || self.image(value, &mut |_| None) == *value;
         if !values.iter().all(stays) {
             return None;
@@ -178,7 +182,7 @@ impl Orbits {
     }
 
     fn add(&mut self, coordinates: Vec<usize>, fields: Vec<Field>, held: Held, coding: Coding<'_>) {
-        let numbered = !matches!(coding, Coding::Listed(_));
+        let numbered = matches!(coding, Coding::Numbered);
         match (&coordinates[..], &held) {
             ([], Held::Plain) => return,
             ([class], Held::Plain) => self.marks[*class].push(Mark::Own(fields.clone(), numbered)),
@@ -274,22 +278,22 @@ impl Orbits {
                 let code = match &family.held {
                     Held::Plain => code,
                     Held::Elements(which, codes) => match which.get(code as usize).copied().flatten() {
-                        Some((class, at)) => codes[class][permutation.0[class][at as usize] as usize],
+                        Some((class, at)) => u64::from(codes[class][permutation.0[class][at as usize] as usize]),
                         None => code,
                     },
                     Held::Deep => {
                         let value = encoding.value(*field, state, view);
                         let image = self.value_image(&value, permutation);
-                        if image == value { code } else { view.number(&image) }
+                        if image == value { code } else { u64::from(view.number(&image)) }
                     }
                 };
                 family.fields[to].put(code, &mut out);
             }
         }
         if let Some(field) = self.rest {
-            let rest = view.rest(field.code(state));
+            let rest = view.rest(field.code(state) as u32);
             let image = self.rest_image(&rest, permutation);
-            let code = if image == *rest { field.code(state) } else { view.rest_number(&image.into()) };
+            let code = if image == *rest { field.code(state) } else { u64::from(view.rest_number(&image.into())) };
             field.put(code, &mut out);
         }
         out
@@ -303,13 +307,13 @@ impl Orbits {
                 Mark::Own(fields, numbered) => {
                     let (a, b) = (fields[a].code(state), fields[b].code(state));
                     match numbered {
-                        true if a != b => view.value(a).clone().cmp(view.value(b)),
+                        true if a != b => view.value(a as u32).clone().cmp(view.value(b as u32)),
                         _ => a.cmp(&b),
                     }
                 }
                 Mark::Held(field, codes) => {
                     let code = field.code(state);
-                    (codes[a] == code).cmp(&(codes[b] == code))
+                    (u64::from(codes[a]) == code).cmp(&(u64::from(codes[b]) == code))
                 }
             };
             if order.is_ne() {
@@ -341,7 +345,7 @@ impl Orbits {
             profile[first..].sort_unstable();
         }
         if let Some(field) = self.rest {
-            let rest = self.rest_with(&view.rest(field.code(state)), &mut neutral);
+            let rest = self.rest_with(&view.rest(field.code(state) as u32), &mut neutral);
             for (location, value) in rest.locations {
                 let arguments = Value::tuple(location.arguments.to_vec());
                 profile.push(Value::tuple(vec![Value::Integer(location.function.0.into()), arguments, value]));

@@ -25,7 +25,7 @@ pub trait StateSets {
     ///
     /// # Errors
     /// No room.
-    fn split(&mut self, set: &Self::Set, field: Bits) -> Result<Vec<(u32, Self::Set)>, Self::Failure>;
+    fn split(&mut self, set: &Self::Set, field: Bits) -> Result<Vec<(u64, Self::Set)>, Self::Failure>;
     /// The states of both.
     ///
     /// # Errors
@@ -120,7 +120,7 @@ impl Explorer {
         visit: &mut Visit<'_, S>,
     ) -> Result<Option<S::Set>, SetTrouble<S::Failure>> {
         let place = match self.steps.tree.stop(Place::Root) {
-            Some(stop @ Stop::Ask { .. }) => Tree::child(stop, part as u32),
+            Some(stop @ Stop::Ask { .. }) => Tree::child(stop, part as u64),
             _ => Place::Root,
         };
         self.expand_from(place, sets, set.clone(), visit)
@@ -137,7 +137,7 @@ impl Explorer {
         visit: &mut Visit<'_, S>,
     ) -> Result<(), SetTrouble<S::Failure>> {
         if let Some(stop @ Stop::Ask { of, guarded: true, .. }) = self.steps.tree.stop(Place::Root) {
-            self.expand_from(Tree::child(stop, of), sets, set.clone(), visit)?;
+            self.expand_from(Tree::child(stop, u64::from(of)), sets, set.clone(), visit)?;
         }
         Ok(())
     }
@@ -179,7 +179,7 @@ impl Explorer {
             Stop::Ask { of, guarded, .. } => {
                 let mut alive = None;
                 for child in 0..of {
-                    let some = self.expand_from(Tree::child(stop, child), sets, set.clone(), visit)?;
+                    let some = self.expand_from(Tree::child(stop, u64::from(child)), sets, set.clone(), visit)?;
                     alive = join(sets, alive, some)?;
                 }
                 if guarded {
@@ -187,7 +187,7 @@ impl Explorer {
                         Some(alive) => sets.minus(&set, alive)?,
                         None => set.clone(),
                     };
-                    let some = self.expand_from(Tree::child(stop, of), sets, rest, visit)?;
+                    let some = self.expand_from(Tree::child(stop, u64::from(of)), sets, rest, visit)?;
                     alive = join(sets, alive, some)?;
                 }
                 Ok(alive)
@@ -272,7 +272,7 @@ impl Explorer {
             }
             Stop::Ask { of, guarded, .. } => {
                 for child in 0..of + u32::from(guarded) {
-                    self.truths_from(condition, part, Tree::child(stop, child), sets, set.clone(), ends)?;
+                    self.truths_from(condition, part, Tree::child(stop, u64::from(child)), sets, set.clone(), ends)?;
                 }
                 Ok(())
             }

@@ -17,6 +17,6 @@ pub struct Sighting {
 /// By field of the packed states, the codes met.
 #[derive(Debug, Clone, Default)]
 pub struct Met {
-    pub(super) codes: Vec<FxHashSet<u32>>,
+    pub(super) codes: Vec<FxHashSet<u64>>,
     pub(super) last: Vec<u64>,
 }

@@ -88,14 +88,14 @@ impl Explorer {
         let Explorer { encoding, machine, view, program, .. } = self;
         for (index, codes) in met.codes.iter().enumerate() {
             let field = encoding.fields[index];
-            let mut codes: Vec<u32> = codes.iter().copied().collect();
+            let mut codes: Vec<u64> = codes.iter().copied().collect();
             codes.sort_unstable();
             for code in codes {
                 if encoding.origin == Some(index as u32) || encoding.kept.fields.contains(&(index as u32)) {
                     continue;
                 }
                 if encoding.rest == Some(index as u32) {
-                    let rest = view.rest(code);
+                    let rest = view.rest(code as u32);
                     for (location, value) in rest.locations.iter().filter(|one| !is_input(program, &one.0)) {
                         values.entry(location.clone()).or_default().insert(value.clone());
                     }

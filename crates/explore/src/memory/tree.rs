@@ -28,7 +28,7 @@ const END: Link = 1 << 31;
 /// LIMIT: fields of more bits have only some of their children by code.
 const WIDE: u8 = 8;
 /// Children of such a field stand by code as long as at least one in so many of them is known, and in a table by hash beyond.
-const SPARSE: u32 = 4;
+const SPARSE: u64 = 4;
 /// LIMIT: a tree with more links is given up.
 const LINKS: usize = 1 << 25;
 
@@ -50,7 +50,7 @@ pub(crate) struct Tree {
     nodes: Vec<Node>,
     links: Vec<Link>,
     /// By the index of a node and a code, the children that do not stand by code.
-    wide: HashMap<(u32, u32), Link, FxBuildHasher>,
+    wide: HashMap<(u32, u64), Link, FxBuildHasher>,
     /// By the index of a node with children in that table, how many children it has in all.
     known: HashMap<u32, u32, FxBuildHasher>,
     root: Link,
@@ -63,7 +63,7 @@ pub(crate) struct Tree {
 pub(crate) enum Place {
     Root,
     Link(usize),
-    Wide(u32, u32),
+    Wide(u32, u64),
 }
 
 /// What a link leads to, for who walks it with many states at a time.
@@ -143,8 +143,8 @@ impl Tree {
                     link = self.links[base as usize + code as usize];
                 }
                 Node::Wide { word, shift, bits, base, len } => {
-                    let code = (words[word as usize] >> shift & ((1 << bits) - 1)) as u32;
-                    link = match code < len {
+                    let code = words[word as usize] >> shift & ((1 << bits) - 1);
+                    link = match code < u64::from(len) {
                         true => self.links[base as usize + code as usize],
                         false => self.wide.get(&(link - 1, code)).copied().unwrap_or(0),
                     };
@@ -224,14 +224,20 @@ impl Tree {
             };
             assert!(node & END == 0, "a step goes on where the same step has ended");
             place = match (self.nodes[node as usize - 1], event) {
-                (Node::Field { base, word, shift, .. }, Event::Look(field)) => {
+                (Node::Field { base, word, shift, bits }, Event::Look(field)) => {
                     let field = fields[*field as usize];
-                    assert!((field.word, field.shift) == (word, shift), "a step looks where the same step did not");
+                    assert!(
+                        (field.word, field.shift, field.bits) == (word, shift, bits),
+                        "a step looks where the same step did not"
+                    );
                     Place::Link(base as usize + field.code(words) as usize)
                 }
-                (Node::Wide { word, shift, .. }, Event::Look(field)) => {
+                (Node::Wide { word, shift, bits, .. }, Event::Look(field)) => {
                     let field = fields[*field as usize];
-                    assert!((field.word, field.shift) == (word, shift), "a step looks where the same step did not");
+                    assert!(
+                        (field.word, field.shift, field.bits) == (word, shift, bits),
+                        "a step looks where the same step did not"
+                    );
                     Place::Wide(node - 1, field.code(words))
                 }
                 (Node::Ask { base, of } | Node::Guarded { base, of }, Event::Ask) => {
@@ -294,10 +300,10 @@ impl Tree {
     }
 
     /// A child of what is no end: for a code, or for an answer.
-    pub fn child(stop: Stop, child: u32) -> Place {
+    pub fn child(stop: Stop, child: u64) -> Place {
         match stop {
             Stop::Field { below: Below::Links(base), .. } | Stop::Ask { base, .. } => {
-                Place::Link((base + child) as usize)
+                Place::Link(base as usize + child as usize)
             }
             Stop::Field { below: Below::Table(index), .. } => Place::Wide(index, child),
             Stop::Dead | Stop::End(_) => unreachable!("an end has no children"),
@@ -313,7 +319,7 @@ impl Tree {
                 Some(Stop::End(end)) => visit(&looked, end),
                 Some(stop @ Stop::Field { bits, below }) => {
                     let longer: Vec<Bits> = looked.iter().copied().chain([bits]).collect();
-                    let codes: Vec<u32> = match below {
+                    let codes: Vec<u64> = match below {
                         Below::Links(_) => (0..1 << bits.bits).collect(),
                         Below::Table(index) => self.codes(index),
                     };
@@ -321,16 +327,17 @@ impl Tree {
                 }
                 Some(stop @ Stop::Ask { of, guarded, .. }) => {
                     let children = of + u32::from(guarded);
-                    open.extend((0..children).map(|child| (Tree::child(stop, child), looked.clone())));
+                    open.extend((0..children).map(|child| (Tree::child(stop, u64::from(child)), looked.clone())));
                 }
             }
         }
     }
 
     /// The codes of the known children of a node with a wide field, in their order.
-    fn codes(&self, index: u32) -> Vec<u32> {
+    fn codes(&self, index: u32) -> Vec<u64> {
         let Node::Wide { base, len, .. } = self.nodes[index as usize] else { return Vec::new() };
-        let mut codes: Vec<u32> = (0..len).filter(|code| self.links[(base + code) as usize] != 0).collect();
+        let places = (0..len).filter(|code| self.links[(base + code) as usize] != 0);
+        let mut codes: Vec<u64> = places.map(u64::from).collect();
         codes.extend(self.wide.keys().filter(|(node, _)| *node == index).map(|(_, code)| *code));
         codes.sort_unstable();
         codes
@@ -341,7 +348,7 @@ impl Tree {
             Place::Root => self.root,
             Place::Link(index) => self.links[*index],
             Place::Wide(node, code) => match self.nodes[*node as usize] {
-                Node::Wide { base, len, .. } if *code < len => self.links[(base + code) as usize],
+                Node::Wide { base, len, .. } if *code < u64::from(len) => self.links[base as usize + *code as usize],
                 _ => self.wide.get(&(*node, *code)).copied().unwrap_or(0),
             },
         }
@@ -355,11 +362,11 @@ impl Tree {
         }
     }
 
-    fn set_wide(&mut self, index: u32, code: u32, link: Link) {
+    fn set_wide(&mut self, index: u32, code: u64, link: Link) {
         let Node::Wide { base, len, .. } = &mut self.nodes[index as usize] else { return };
         let known = self.known.entry(index).or_default();
-        if code < *len {
-            let place = &mut self.links[(*base + code) as usize];
+        if code < u64::from(*len) {
+            let place = &mut self.links[*base as usize + code as usize];
             *known += u32::from(*place == 0);
             *place = link;
             return;
@@ -369,12 +376,12 @@ impl Tree {
         }
         *known += 1;
         // The number of a state's value may be any: only where most of the codes below are known do they get places.
-        if code / SPARSE < *known && code < 1 << 30 {
+        if code / SPARSE < u64::from(*known) && code < 1 << 30 {
             let (from, before) = (*base as usize, *len);
-            (*base, *len) = (self.links.len() as u32, (code + 1).next_power_of_two());
+            (*base, *len) = (self.links.len() as u32, (code as u32 + 1).next_power_of_two());
             self.links.extend_from_within(from..from + before as usize);
             let Tree { links, wide, .. } = self;
-            links.extend((before..*len).map(|code| wide.remove(&(index, code)).unwrap_or(0)));
+            links.extend((before..*len).map(|code| wide.remove(&(index, u64::from(code))).unwrap_or(0)));
         }
     }
 }

@@ -8,6 +8,8 @@ use std::sync::Arc;
 use machine::{Machine, Value};
 use program::{DomainId, DomainKind, Program};
 
+use crate::packed::collection::Collection;
+
 /// LIMIT: a domain with more elements counts as infinite.
 const CODES: usize = 1 << 12;
 
@@ -16,9 +18,14 @@ const CODES: usize = 1 << 12;
 pub(crate) enum Codes {
     /// The place in this list, sorted; undef, where it is possible, comes last.
     Listed { values: Arc<Vec<Value>>, undefined: bool },
+    /// Sequences or sets, by their elements.
+    InPlace(Collection),
     /// The number that an interner gives.
     Interned,
 }
+
+/// How many bits the number of a value has.
+pub(crate) const NUMBER: usize = 32;
 
 impl Codes {
     /// The codes of values of a domain and these, of undef where that is possible; and how many bits they need.
@@ -30,7 +37,7 @@ impl Codes {
         found: impl Iterator<Item = &'v Value>,
         undefined: bool,
     ) -> (Codes, usize) {
-        let Some(mut values) = finite(program, constant, machine, domain) else { return (Codes::Interned, 32) };
+        let Some(mut values) = finite(program, constant, machine, domain) else { return (Codes::Interned, NUMBER) };
         values.extend(found.cloned());
         values.retain(|value| !value.is_undef());
         values.sort_unstable();
@@ -39,6 +46,41 @@ impl Codes {
         let bits = (usize::BITS - count.saturating_sub(1).leading_zeros()) as usize;
         (Codes::Listed { values: Arc::new(values), undefined }, bits)
     }
+
+    /// The codes of collections of a domain in place, if they all are such, these among them, and never undef; sequences may be so
+    /// long.
+    pub fn in_place<'v>(
+        program: &Program,
+        constant: &[bool],
+        machine: &mut Machine,
+        domain: DomainId,
+        found: impl Iterator<Item = &'v Value>,
+        longest: usize,
+    ) -> Option<Collection> {
+        let (part, is_sequence) = match program.domain(program.base_domain(domain)).kind {
+            DomainKind::Seq(part) => (part, true),
+            DomainKind::Powerset(part) => (part, false),
+            _ => return None,
+        };
+        if !constant[part.0 as usize] || !program.is_listable(part) {
+            return None;
+        }
+        let mut elements = machine.elements(part).ok().filter(|elements| elements.len() <= CODES)?;
+        elements.sort_unstable();
+        elements.dedup();
+        let mut longest = longest;
+        let found: Vec<&Value> = found.collect();
+        for value in &found {
+            if let Value::Seq(items) = value {
+                longest = longest.max(items.len());
+            }
+        }
+        let collection = match is_sequence {
+            true => Collection::sequences(elements, longest),
+            false => Collection::sets(elements),
+        };
+        collection.filter(|collection| found.iter().all(|value| collection.code(value).is_ok()))
+    }
 }
 
 /// How a function's values become codes, for who asks.
@@ -46,6 +88,8 @@ impl Codes {
 pub(crate) enum Coding<'e> {
     /// The place in this list.
     Listed(&'e [Value]),
+    /// Bits of its own for each piece of the value.
+    InPieces,
     /// The number of the value.
     Numbered,
 }

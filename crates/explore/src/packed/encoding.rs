@@ -15,8 +15,10 @@ use machine::{Location, Machine, Value};
 use program::{FunctionId, FunctionKind, Program, Rule, Term};
 
 use crate::packed::codes::{Codes, Coding, finite};
+use crate::packed::collection::Collection;
 use crate::packed::interner::{Rest, View};
 use crate::packed::kept::{Kept, is_input};
+use crate::packed::room::{Want, fit};
 use crate::packed::widening::{TooNarrow, Widening};
 use crate::packed::words::{Field, NOWHERE, REST};
 
@@ -49,18 +51,23 @@ pub(crate) struct Encoding {
     pub kept: Kept,
     /// The field that says which initial state a run began in, where initial values that come up later depend on it.
     pub origin: Option<u32>,
+    /// The fields, and after them the pieces of those that hold a collection.
+    pub looks: Arc<[Field]>,
+    /// By field where its first piece stands among these; 0 where it has none.
+    pub pieces: Arc<[u32]>,
 }
 
 impl Encoding {
     /// The encoding of a program's states; `machine` stands in an initial state, `initial` are the values of all initial
     /// states by location, `kept` the inputs that these keep, and so many `origins` are to be told apart. No step changes the
-    /// `steady` functions: where they are the same in all initial states, they are no part of states.
+    /// `steady` functions: where they are the same in all initial states, they are no part of states. Collections may stand
+    /// `in_place`.
     pub fn new(
         program: &Program,
         machine: &mut Machine,
         (initial, steady): (&[Vec<Value>], &BTreeSet<FunctionId>),
         kept: Kept,
-        origins: usize,
+        (origins, in_place): (usize, bool),
         widening: &Widening,
     ) -> Encoding {
         let assigned_undef = assigned_undef(program);
@@ -78,10 +85,12 @@ impl Encoding {
             constant,
             kept: Kept::default(),
             origin: None,
+            looks: Arc::new([]),
+            pieces: Arc::new([]),
         };
         // Sparse locations have different numbers in different states.
         let mut of_location = vec![NOWHERE; machine.store().dense_len()];
-        let mut used = 0usize;
+        let (mut placed, mut wants) = (Vec::new(), Vec::new());
         for (index, function) in program.functions.iter().enumerate() {
             let id = FunctionId(index as u32);
             let is_kept = is_kept(program, id);
@@ -99,12 +108,24 @@ impl Encoding {
             let Some(locations) = declared_locations(program, &encoding.constant, machine, id) else { continue };
             let found = || locations.iter().flat_map(|location| initial.iter().map(|state| &state[*location as usize]));
             let undefined = widening.undefined.contains(&id) || assigned_undef[index] || found().any(Value::is_undef);
-            let (codes, bits) = Codes::of(program, &encoding.constant, machine, function.codomain, found(), undefined);
+            let (domain, constant) = (function.codomain, &encoding.constant);
+            let (codes, bits) = Codes::of(program, constant, machine, domain, found(), undefined);
+            let longest = widening.longest.get(&id).copied().unwrap_or(0);
+            let collection = (in_place && !undefined && !widening.numbered.contains(&id))
+                .then(|| Codes::in_place(program, constant, machine, domain, found(), longest))
+                .flatten();
+            wants.push(Want { count: locations.len(), bits, collection });
+            placed.push((id, locations, codes));
+        }
+        fit(&mut wants);
+        let mut used = 0usize;
+        for ((id, locations, codes), want) in placed.into_iter().zip(wants) {
+            let bits = want.bits();
             if used + bits * locations.len() > BITS {
                 continue;
             }
             used += bits * locations.len();
-            encoding.codes[index] = Some(codes);
+            encoding.codes[id.0 as usize] = Some(want.collection.map_or(codes, Codes::InPlace));
             for location in locations {
                 of_location[location as usize] = encoding.add_field(location, id, bits);
             }
@@ -127,7 +148,31 @@ impl Encoding {
             let bits = usize::BITS - (origins - 1).leading_zeros();
             encoding.origin = Some(encoding.add_field(NOWHERE, FunctionId(0), bits as usize));
         }
+        encoding.place_pieces();
         encoding
+    }
+
+    fn place_pieces(&mut self) {
+        let (mut looks, mut pieces) = (self.fields.clone(), vec![0; self.fields.len()]);
+        for (field, first) in self.fields.iter().zip(&mut pieces) {
+            if let Some(Codes::InPlace(collection)) = self.codes_of(*field) {
+                *first = looks.len() as u32;
+                looks.extend(collection.pieces(*field));
+            }
+        }
+        (self.looks, self.pieces) = (looks.into(), pieces.into());
+    }
+
+    fn codes_of(&self, field: Field) -> Option<&Codes> {
+        self.codes[field.function.0 as usize].as_ref().filter(|_| field.location != NOWHERE)
+    }
+
+    /// How the collections of a function stand in its fields, if they do so in pieces.
+    pub fn collection(&self, function: FunctionId) -> Option<&Collection> {
+        match &self.codes[function.0 as usize] {
+            Some(Codes::InPlace(collection)) => Some(collection),
+            Some(Codes::Listed { .. } | Codes::Interned) | None => None,
+        }
     }
 
     /// Whether both give each state the same words, with one interner.
@@ -158,18 +203,21 @@ impl Encoding {
     }
 
     /// The code of a location's value.
-    pub fn code(&self, field: Field, value: &Value, view: &mut View) -> Result<u32, TooNarrow> {
+    pub fn code(&self, field: Field, value: &Value, view: &mut View) -> Result<u64, TooNarrow> {
         let narrow = || {
             let undefined = BTreeSet::from([field.function]);
-            TooNarrow(Widening { undefined, rest: false })
+            TooNarrow(Widening { undefined, ..Widening::default() })
         };
         match &self.codes[field.function.0 as usize] {
             Some(Codes::Listed { values, undefined }) => match (value, values.first()) {
-                (Value::Undef, _) if *undefined => Ok(values.len() as u32),
+                (Value::Undef, _) if *undefined => Ok(values.len() as u64),
                 (Value::Undef, _) => Err(narrow()),
-                _ => Ok(values.binary_search(value).map_err(|_| narrow())? as u32),
+                _ => Ok(values.binary_search(value).map_err(|_| narrow())? as u64),
             },
-            _ => Ok(view.number(value)),
+            Some(Codes::InPlace(collection)) => {
+                collection.code(value).map_err(|misfit| TooNarrow::of(field.function, misfit))
+            }
+            Some(Codes::Interned) | None => Ok(u64::from(view.number(value))),
         }
     }
 
@@ -177,7 +225,8 @@ impl Encoding {
     pub fn coding(&self, function: FunctionId) -> Coding<'_> {
         match &self.codes[function.0 as usize] {
             Some(Codes::Listed { values, .. }) => Coding::Listed(values),
-            _ => Coding::Numbered,
+            Some(Codes::InPlace(_)) => Coding::InPieces,
+            Some(Codes::Interned) | None => Coding::Numbered,
         }
     }
 
@@ -196,7 +245,8 @@ impl Encoding {
         let code = field.code(words);
         match &self.codes[field.function.0 as usize] {
             Some(Codes::Listed { values, .. }) => values.get(code as usize).cloned().unwrap_or(Value::Undef),
-            _ => view.value(code).clone(),
+            Some(Codes::InPlace(collection)) => collection.value(code),
+            Some(Codes::Interned) | None => view.value(code as u32).clone(),
         }
     }
 
@@ -218,7 +268,7 @@ impl Encoding {
         }
         self.put_rest(rest, &mut words, view)?;
         if let Some(field) = self.origin {
-            self.fields[field as usize].put(origin, &mut words);
+            self.fields[field as usize].put(u64::from(origin), &mut words);
         }
         Ok(words)
     }
@@ -236,7 +286,7 @@ impl Encoding {
     pub fn unpack_rest(&self, program: &Program, words: &[u64], machine: &mut Machine, view: &mut View) {
         let store = machine.store_mut();
         let rest = match self.rest {
-            Some(field) => view.rest(self.fields[field as usize].code(words)),
+            Some(field) => view.rest(self.fields[field as usize].code(words) as u32),
             None => Arc::clone(&self.constant_rest),
         };
         let sparse = self.of_location.len() as u32..store.len() as u32;
@@ -301,11 +351,11 @@ impl Encoding {
         match self.rest {
             Some(field) => {
                 let code = view.rest_number(&Arc::new(rest));
-                self.fields[field as usize].put(code, words);
+                self.fields[field as usize].put(u64::from(code), words);
                 Ok(())
             }
             None if rest == *self.constant_rest => Ok(()),
-            None => Err(TooNarrow(Widening { undefined: BTreeSet::new(), rest: true })),
+            None => Err(TooNarrow(Widening { rest: true, ..Widening::default() })),
         }
     }
 
@@ -323,7 +373,7 @@ impl Encoding {
                 continue;
             }
             if self.rest == Some(index as u32) {
-                return view.rest(field.code(a)).cmp(&view.rest(field.code(b)));
+                return view.rest(field.code(a) as u32).cmp(&view.rest(field.code(b) as u32));
             }
             if self.origin == Some(index as u32) {
                 return field.code(a).cmp(&field.code(b));

@@ -73,14 +73,14 @@ impl Encoding {
     pub fn without_inputs(&self, view: &mut View) -> Vec<Overwrite> {
         let without = |index: &u32| {
             let field = self.fields[*index as usize];
-            let set = u64::from(self.no_input(field, view)) << field.shift;
-            Overwrite { word: field.word, clear: field.mask(), set }
+            let set = self.no_input(field, view) << field.shift;
+            Overwrite { word: field.word, clear: field.mask(), set, from: 0, turn: 0 }
         };
         self.kept.fields.iter().map(without).collect()
     }
 
     /// The code that says that an input is not kept.
-    fn no_input(&self, field: Field, view: &mut View) -> u32 {
+    fn no_input(&self, field: Field, view: &mut View) -> u64 {
         self.code(field, &Value::Undef, view).expect("a kept input has a code for none")
     }
 

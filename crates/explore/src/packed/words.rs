@@ -18,23 +18,35 @@ pub struct Bits {
     pub bits: u8,
 }
 
-/// Bits of one word that a step sets, whatever they were.
+/// Bits of one word that a step sets, whatever they were, or that become what others of them were.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Overwrite {
     /// In which word.
     pub word: u32,
+    /// How far to the right bits move.
+    pub turn: u8,
     /// Which bits.
     pub clear: u64,
     /// Those of them that become ones.
     pub set: u64,
+    /// Those of them that move.
+    pub from: u64,
+}
+
+impl Overwrite {
+    /// What a word is after it.
+    #[inline(always)]
+    pub fn of(&self, word: u64) -> u64 {
+        word & !self.clear | self.set | (word & self.from).rotate_right(u32::from(self.turn))
+    }
 }
 
 /// What the words are after these overwrites.
 #[inline]
-pub(crate) fn apply(overwrites: &[Overwrite], words: &mut [u64]) {
-    for Overwrite { word, clear, set } in overwrites {
-        let word = &mut words[*word as usize];
-        *word = *word & !clear | set;
+pub fn apply(overwrites: &[Overwrite], words: &mut [u64]) {
+    for overwrite in overwrites {
+        let word = &mut words[overwrite.word as usize];
+        *word = overwrite.of(*word);
     }
 }
 
@@ -58,14 +70,14 @@ impl Field {
 
     /// The code that stands in it.
     #[inline]
-    pub fn code(&self, words: &[u64]) -> u32 {
-        ((words[self.word as usize] & self.mask()) >> self.shift) as u32
+    pub fn code(&self, words: &[u64]) -> u64 {
+        (words[self.word as usize] & self.mask()) >> self.shift
     }
 
     /// Puts a code into it.
     #[inline]
-    pub fn put(&self, code: u32, words: &mut [u64]) {
+    pub fn put(&self, code: u64, words: &mut [u64]) {
         let word = &mut words[self.word as usize];
-        *word = *word & !self.mask() | u64::from(code) << self.shift;
+        *word = *word & !self.mask() | code << self.shift;
     }
 }

@@ -16,7 +16,7 @@ mod located;
 
 use std::sync::Arc;
 
-use explore::{AlternativeKind, Bits, Expansion, Explorer, Overwrite, SetTrouble, StateSets, Widening};
+use explore::{AlternativeKind, Bits, Expansion, Explorer, Overwrite, SetTrouble, StateSets, Widening, apply};
 use program::Program;
 
 use crate::partial_order::footprint::{Footprint, footprints};
@@ -150,10 +150,7 @@ impl Reduction {
             own &= alternative.overwrites.iter().all(|overwrite| self.writes_its_own(part, overwrite));
             let next = out.len();
             out.extend_from_slice(state);
-            for Overwrite { word, clear, set } in alternative.overwrites {
-                let word = &mut out[next + *word as usize];
-                *word = *word & !clear | set;
-            }
+            apply(alternative.overwrites, &mut out[next..]);
             if out[next..] == *state {
                 out.truncate(next);
                 expansion.stayed += 1;
@@ -219,10 +216,10 @@ impl StateSets for One<'_> {
         !set
     }
 
-    fn split(&mut self, set: &bool, field: Bits) -> Result<Vec<(u32, bool)>, Never> {
+    fn split(&mut self, set: &bool, field: Bits) -> Result<Vec<(u64, bool)>, Never> {
         self.looked.push(field);
         let code = self.state[field.word as usize] >> field.shift & ((1 << field.bits) - 1);
-        Ok(if *set { vec![(code as u32, true)] } else { Vec::new() })
+        Ok(if *set { vec![(code, true)] } else { Vec::new() })
     }
 
     fn union(&mut self, a: &bool, b: &bool) -> Result<bool, Never> {

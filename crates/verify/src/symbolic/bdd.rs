@@ -116,6 +116,7 @@ impl Diagrams {
         if let Some(known) = self.writes.get(overwrites) {
             return Ok(known.clone());
         }
+        assert!(overwrites.iter().all(|write| write.from == 0), "bits of sets of states do not move");
         let (mut variables, mut values) = (self.all.clone(), self.all.clone());
         for (word, shift) in self.places.iter().rev() {
             let Some(write) = overwrites.iter().find(|write| write.word == *word) else { continue };
@@ -147,8 +148,8 @@ impl StateSets for Diagrams {
         *set == self.empty
     }
 
-    fn split(&mut self, set: &Set, field: Bits) -> Result<Vec<(u32, Set)>, Full> {
-        let mut parts = vec![(0u32, set.clone())];
+    fn split(&mut self, set: &Set, field: Bits) -> Result<Vec<(u64, Set)>, Full> {
+        let mut parts = vec![(0u64, set.clone())];
         for bit in (0..field.bits).rev() {
             let place = (field.word, field.shift + bit);
             let mut finer = Vec::with_capacity(2 * parts.len());
@@ -156,7 +157,7 @@ impl StateSets for Diagrams {
                 for one in [false, true] {
                     let some = part.and(self.literal(place, one))?;
                     if some != self.empty {
-                        finer.push((code | u32::from(one) << bit, some));
+                        finer.push((code | u64::from(one) << bit, some));
                     }
                 }
             }

@@ -99,6 +99,7 @@ impl Reach {
         settings.forgetful = false;
         // Sets are walked over the tree of decisions.
         settings.engine = EngineChoice::Interpreted;
+        settings.numbered = true;
         let mut explorer = Explorer::new(program, settings, widening, &interner)?;
         sample(&mut explorer).map_err(Trouble::TooNarrow)?;
         let fields = explorer.fields();
