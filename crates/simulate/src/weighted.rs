@@ -1,4 +1,4 @@
-//! Random inputs by weight: `--weight 'emergency=true:1,false:99'`.
+//! Random inputs by weight: `--weight 'emergency=true:1,false:99'`, or `--weight emergency=1%`.
 //!
 //! In: for a function, or for one of its locations, values and how often each should come compared with the others.
 //! Values that are not named never come. A draw depends on seed, step and location alone, like those of
@@ -11,6 +11,20 @@ use crate::constants::{read_input, split};
 use crate::inputs::{Ask, Source};
 use crate::read::read_value;
 use crate::splitmix::{SplitMix, location_key_of};
+
+/// The weight of all values together, where one has a share in percent with up to three decimals.
+const WHOLE: u64 = 100_000;
+
+/// A share of [`WHOLE`] in percent.
+fn share(text: &str) -> Option<u64> {
+    let (whole, part) = text.split_once('.').unwrap_or((text, "0"));
+    let is_number = |digits: &str| !digits.is_empty() && digits.bytes().all(|byte| byte.is_ascii_digit());
+    if !is_number(whole) || !is_number(part) || part.len() > 3 {
+        return None;
+    }
+    let share = whole.parse::<u64>().ok()?.checked_mul(1_000)? + format!("{part:0<3}").parse::<u64>().ok()?;
+    (share <= WHOLE).then_some(share)
+}
 
 /// Values and their weights.
 #[derive(Debug, Clone)]
@@ -34,7 +48,8 @@ impl Weighted {
         Weighted { seed, rules: Vec::new() }
     }
 
-    /// Adds `location=value:weight,value:weight`; a function's name alone stands for all its locations.
+    /// Adds `location=value:weight,value:weight`; a function's name alone stands for all its locations. A Boolean may have a share
+    /// instead: `location=1%` is true in one of a hundred draws.
     ///
     /// # Errors
     /// A sentence for the user: no such input or value, no weight, or none above 0.
@@ -54,7 +69,24 @@ impl Weighted {
         };
         let codomain = program.function(function).codomain;
         let mut rule = Rule { function, arguments, values: Vec::new(), total: 0 };
-        for part in parts(values) {
+        if let Some(number) = values.trim().strip_suffix('%') {
+            let is_true = share(number.trim()).ok_or_else(|| {
+                format!(
+                    "`{}` is no share: write a number from 0 to 100 with up to three decimals, as in 0.1%",
+                    values.trim()
+                )
+            })?;
+            for (value, weight) in [("true", is_true), ("false", WHOLE - is_true)] {
+                let read = read_value(program, codomain, value).ok();
+                let value = read.filter(|value| matches!(value, Value::Boolean(_))).ok_or_else(|| {
+                    format!("`{location}` is not Boolean: give each value a weight, as in {location}=value:1,value:99")
+                })?;
+                rule.values.push((value, weight));
+            }
+            rule.total = WHOLE;
+        }
+        let listed = if rule.values.is_empty() { parts(values) } else { Vec::new() };
+        for part in listed {
             let (value, weight) = part.rsplit_once(':').ok_or_else(form)?;
             let weight: u32 =
                 weight.trim().parse().map_err(|_| format!("`{}` is no weight: write a whole number", weight.trim()))?;
@@ -116,7 +148,16 @@ impl Source for Weighted {
 
 #[cfg(test)]
 mod tests {
-    use super::parts;
+    use super::{parts, share};
+
+    #[test]
+    fn shares_of_a_hundred() {
+        let all = ["1", "0", "100", "0.1", "12.345", "100.001", "1.2345", "-1", "", ".5", "5.", "1e1", "101"];
+        let expect = [Some(1_000), Some(0), Some(100_000), Some(100), Some(12_345)];
+        for (at, text) in all.iter().enumerate() {
+            assert_eq!(share(text), expect.get(at).copied().flatten(), "{text}");
+        }
+    }
 
     #[test]
     fn values_may_have_commas() {
