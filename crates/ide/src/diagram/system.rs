@@ -229,7 +229,7 @@ impl Work {
                 if !timing.is_synchronous() {
                     return Err("an asynchronous component has no deadlines".to_string());
                 }
-                self.set_end(timing.tolerance().map(|one| extent(one.syntax())), extent(timing.syntax()).end, value);
+                self.set_last(timing.tolerance().map(|one| extent(one.syntax())), extent(timing.syntax()).end, value);
                 Ok(())
             }
             Property::PhaseFresh(at) => {
@@ -239,7 +239,7 @@ impl Work {
                     return Err("only a reading brings something new".to_string());
                 }
                 let end = extent(phase.syntax()).end;
-                self.set_end(phase.fresh().map(|one| extent(one.syntax())), end, value);
+                self.set_last(phase.fresh().map(|one| extent(one.syntax())), end, value);
                 Ok(())
             }
             Property::Awaits => {
@@ -321,7 +321,7 @@ impl Work {
     }
 
     /// What stands at the end of a node: set, changed or taken away.
-    fn set_end(&mut self, present: Option<Bytes>, end: usize, value: Option<String>) {
+    fn set_last(&mut self, present: Option<Bytes>, end: usize, value: Option<String>) {
         match (present, value) {
             (Some(bytes), Some(value)) => self.replace(bytes, &value),
             (Some(bytes), None) => self.take_away(bytes),
