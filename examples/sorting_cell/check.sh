@@ -81,6 +81,7 @@ seeded late SortingCell.chart "elaborate classify 8..20 ms" "elaborate classify 
 expect 0 "" "$groundstate" chart build "$cell/SortingCell.chart"
 expect 1 "^FAIL LeftAndRight" "$groundstate" test "$cell/LeftAndRight.avalla"
 seeded long SortingCell.chart "elaborate count 0.2 ms" "elaborate count 0.2..1.2 ms"
+: >"$cell/SortingCell.verify.yaml"
 expect 1 "^violated  inv_periods" "$groundstate" verify "$cell/SortingCell.chart" --first --quiet
 
 # The program; on request its sequencer decides otherwise than its machine.

@@ -4,7 +4,7 @@
 //! made of a system knows it: the ground model, the program. INVARIANT: each monitored function of a machine's own file has a feed, and
 //! each out function a take, in the order of their declarations.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use model::{Checked, Model};
@@ -59,6 +59,8 @@ pub struct ComponentMachine {
     pub(crate) file: FileId,
     /// Its model, checked by itself.
     pub(crate) checked: Arc<Checked>,
+    /// Functions of its own that may have any value in each step: only of a part of a system, see `component::cut`.
+    pub(crate) freed: BTreeSet<String>,
 }
 
 impl PartialEq for ComponentMachine {

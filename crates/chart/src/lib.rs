@@ -33,7 +33,9 @@ mod ways;
 mod write;
 pub mod xml;
 
-pub use build::{Built, Known, Lengths, Unknown, build, kept, library, unbuilt, unverified, verifiable, verified};
+pub use build::{
+    Built, Known, Lengths, Reduced, Unknown, build, kept, library, reduced, unbuilt, unverified, verifiable, verified,
+};
 pub use chart::{
     Arrow, Chart, Composite, Control, End, Layout, Machine, Parameter, Pattern, Refinement, Shape, ShapeId, ShapeKind,
     WORDS,

@@ -1,7 +1,8 @@
 //! Checks a specification against its model, for `check` and for editors.
 //!
 //! In: the texts of `MODEL.report.yaml` or `MODEL.verify.yaml` and of the model, and [`Files`] for what both name. Out:
-//! [`Findings`]: the model's faults if it has errors, else those of the specification.
+//! [`Findings`]: the model's faults if it has errors, else those of the specification. A verification specification beside a chart that
+//! draws a system is about that system.
 
 use std::path::Path;
 
@@ -9,15 +10,23 @@ use chart::NoPictures;
 use model::Loader;
 use syntax::SourceFile;
 
-use crate::kind::{Kind, model_of};
+use crate::asked_of_system::{check_asked_of_system, draws_system};
+use crate::kind::{Kind, chart_of, model_of};
 use crate::reporting::prepare_report;
-use crate::workspace::{Files, Findings};
+use crate::workspace::{Absent, Files, Findings};
 use crate::{check_verification, load};
 
 /// Checks a specification. Without a model, nothing is checked. A file that is not named as a report specification is
 /// read as a verification specification.
 pub fn check_specification<F: Files + Loader>(root: &SourceFile, model: Option<SourceFile>, files: &mut F) -> Findings {
     let path = Path::new(&root.name);
+    if Kind::of(path) == Some(Kind::Verification) {
+        match files.read(&chart_of(path).to_string_lossy()) {
+            Ok(chart) if draws_system(&chart) => return check_asked_of_system(root, chart, files),
+            Ok(_) | Err(Absent::Missing) => {}
+            Err(Absent::Unreadable(reason)) => return Findings::not_checked(reason),
+        }
+    }
     let Some(model) = model else {
         return Findings::not_checked(format!("there is no model {}", model_of(path).display()));
     };

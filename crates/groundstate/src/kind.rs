@@ -1,6 +1,6 @@
 //! Tells the kind of a project's file from its name.
 //!
-//! In: a path. Out: its [`Kind`], and for a specification the path of its model. No file is read.
+//! In: a path. Out: its [`Kind`], and for a specification the paths of its model and of its chart. No file is read.
 
 use std::path::{Path, PathBuf};
 
@@ -44,6 +44,11 @@ pub fn model_of(specification: &Path) -> PathBuf {
     specification.with_extension("").with_extension("asm")
 }
 
+/// The chart that a verification specification is about if it draws a system: `Model.chart` for `Model.verify.yaml`.
+pub fn chart_of(specification: &Path) -> PathBuf {
+    specification.with_extension("").with_extension("chart")
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -59,5 +64,6 @@ mod tests {
             check(path, None);
         }
         assert_eq!(model_of(Path::new("a/Lamp.report.yaml")), Path::new("a/Lamp.asm"));
+        assert_eq!(chart_of(Path::new("a/Lamp.verify.yaml")), Path::new("a/Lamp.chart"));
     }
 }

@@ -4,6 +4,7 @@
 //! faults, including run-time faults, as [`syntax::Diagnostic`]s. Shells build on this crate and use only types of the
 //! crates below. It must not know files, terminals or wire formats.
 
+mod asked_of_system;
 mod avalla;
 mod build;
 mod check_coupling;
@@ -36,6 +37,7 @@ use program::{Program, Rule, RuleId};
 use syntax::ast::AstNode;
 use syntax::{Diagnostic, Severity, SourceFile, Sources, Span};
 
+pub use asked_of_system::{check_asked_of_system, draws_system, libraries_of, refusal, words, words_of};
 pub use build::{BuiltChart, Located, build_chart};
 pub use check_coupling::check_coupling;
 pub use check_specification::check_specification;
@@ -49,11 +51,11 @@ pub use fault::verification::{
     diagnose_outside, diagnose_property, diagnose_unbounded, diagnose_unreachable, short_place,
 };
 pub use fingerprint::{fingerprint, text_fingerprint};
-pub use kind::{Kind, has_ending, model_of};
+pub use kind::{Kind, chart_of, has_ending, model_of};
 pub use overlay::{Overlay, Said};
 pub use owed::{Owed, OwedProof, owed};
 pub use test::{SeededChoices, Suite, Tested, own_files};
-pub use verified_system::{GroundRun, VerifiedSystem, not_kept, verified_system};
+pub use verified_system::{GroundRun, ReducedSystem, VerifiedSystem, not_kept, reduced_system, verified_system};
 pub use verify_preserved::verify_preserved;
 pub use workspace::Workspace;
 pub use {

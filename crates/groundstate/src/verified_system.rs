@@ -54,40 +54,99 @@ pub fn verified_system(
     speaks_of: &dyn Fn(&str) -> bool,
     loader: &mut dyn Loader,
 ) -> Result<Box<VerifiedSystem>, Vec<Located>> {
-    let chart::Loaded { sources, mut chart, diagnostics } = chart::load(root.clone(), loader);
-    if has_errors(&diagnostics) {
-        return Err(vec![(sources, diagnostics)]);
+    let verifiable = Verifiable::load(root, loader)?;
+    let part = chart::verifiable(&verifiable.chart, speaks_of);
+    verifiable.with(part, libraries, loader)
+}
+
+/// A part of a system that is enough for a property if the property holds of it: see [`chart::reduced`].
+#[derive(Debug)]
+pub struct ReducedSystem {
+    /// The part, as a system.
+    pub system: Box<VerifiedSystem>,
+    /// The inputs that stand for what was left free.
+    pub free: Vec<String>,
+    /// Those of them that may be undef.
+    pub undefined: Vec<String>,
+    /// The components whose machines are a part of it.
+    pub components: Vec<String>,
+}
+
+/// Makes the model that verifies a part of a chart's system: what the functions are that are spoken of, and `widenings` times what they rest
+/// on. None if nothing is left out then.
+///
+/// # Errors
+/// As [`verified_system`].
+pub fn reduced_system(
+    root: SourceFile,
+    libraries: &[&str],
+    speaks_of: &dyn Fn(&str) -> bool,
+    widenings: usize,
+    loader: &mut dyn Loader,
+) -> Result<Option<ReducedSystem>, Vec<Located>> {
+    let verifiable = Verifiable::load(root, loader)?;
+    let Some(reduced) = chart::reduced(&verifiable.chart, speaks_of, widenings) else { return Ok(None) };
+    let chart::Reduced { chart, free, undefined, components } = reduced;
+    let system = verifiable.with(chart, libraries, loader)?;
+    Ok(Some(ReducedSystem { system, free, undefined, components }))
+}
+
+/// A chart whose system can be verified.
+struct Verifiable {
+    chart: Chart,
+    known: Known,
+    folder: String,
+    warnings: Located,
+}
+
+impl Verifiable {
+    fn load(root: SourceFile, loader: &mut dyn Loader) -> Result<Verifiable, Vec<Located>> {
+        let chart::Loaded { sources, mut chart, diagnostics } = chart::load(root.clone(), loader);
+        if has_errors(&diagnostics) {
+            return Err(vec![(sources, diagnostics)]);
+        }
+        let folder = root.name.rfind(['/', '\\']).map_or("", |end| &root.name[..=end]).to_string();
+        let known = match Known::completed(&mut chart, &format!("{folder}Imports.asm"), loader) {
+            Ok(known) => known,
+            Err(unknown) => return Err(vec![(sources, unknown.imports), (unknown.checked.sources, unknown.modules)]),
+        };
+        let unverified = chart::unverified(&chart, &known);
+        if has_errors(&unverified) {
+            return Err(vec![(sources, unverified)]);
+        }
+        Ok(Verifiable { chart, known, folder, warnings: (sources, diagnostics) })
     }
-    let folder = root.name.rfind(['/', '\\']).map_or("", |end| &root.name[..=end]).to_string();
-    let known = match Known::completed(&mut chart, &format!("{folder}Imports.asm"), loader) {
-        Ok(known) => known,
-        Err(unknown) => return Err(vec![(sources, unknown.imports), (unknown.checked.sources, unknown.modules)]),
-    };
-    let unverified = chart::unverified(&chart, &known);
-    if has_errors(&unverified) {
-        return Err(vec![(sources, unverified)]);
+
+    /// The models of a part of the chart.
+    fn with(
+        self,
+        part: Chart,
+        libraries: &[&str],
+        loader: &mut dyn Loader,
+    ) -> Result<Box<VerifiedSystem>, Vec<Located>> {
+        let Verifiable { chart, known, folder, warnings } = self;
+        let text = |lengths| chart::verified(&part, libraries, lengths);
+        let (Some(library), Some(drawn), Some(any)) =
+            (chart::library(&part), text(Lengths::AsDrawn), text(Lengths::Any))
+        else {
+            unreachable!("what has no system or no library was reported above")
+        };
+        let ground = match chart::build(&part, &known, None) {
+            Ok(built) => built.text,
+            Err(faults) => return Err(vec![(Sources::default(), faults)]),
+        };
+        let mut load_as = |name: String, text: String| {
+            let root = SourceFile::new(name, text);
+            let mut loader = Libraries { root: root.name.clone(), library: &library, loader };
+            load(root, &mut loader).map_err(|faulty| vec![(faulty.sources, faulty.diagnostics)])
+        };
+        let name = format!("{folder}{}InTicks.asm", chart.name);
+        let general = if any == drawn { None } else { Some(load_as(name.clone(), any)?) };
+        let loaded = load_as(name, drawn)?;
+        let ground = load_as(format!("{folder}{}.asm", chart.name), ground)?;
+        let data = chart::kept(&part);
+        Ok(Box::new(VerifiedSystem { chart, part, data, loaded, general, warnings, ground }))
     }
-    let part = chart::verifiable(&chart, speaks_of);
-    let text = |lengths| chart::verified(&part, libraries, lengths);
-    let (Some(library), Some(drawn), Some(any)) = (chart::library(&part), text(Lengths::AsDrawn), text(Lengths::Any))
-    else {
-        unreachable!("what has no system or no library was reported above")
-    };
-    let ground = match chart::build(&part, &known, None) {
-        Ok(built) => built.text,
-        Err(faults) => return Err(vec![(Sources::default(), faults)]),
-    };
-    let mut load_as = |name: String, text: String| {
-        let root = SourceFile::new(name, text);
-        let mut loader = Libraries { root: root.name.clone(), library: &library, loader };
-        load(root, &mut loader).map_err(|faulty| vec![(faulty.sources, faulty.diagnostics)])
-    };
-    let name = format!("{folder}{}InTicks.asm", chart.name);
-    let general = if any == drawn { None } else { Some(load_as(name.clone(), any)?) };
-    let loaded = load_as(name, drawn)?;
-    let ground = load_as(format!("{folder}{}.asm", chart.name), ground)?;
-    let data = chart::kept(&part);
-    Ok(Box::new(VerifiedSystem { chart, part, data, loaded, general, warnings: (sources, diagnostics), ground }))
 }
 
 /// The libraries of a verified model: the verification library is the built-in one, the pattern library that of the chart.

@@ -13,6 +13,7 @@ mod operations;
 mod pages;
 mod picks;
 mod preserved;
+mod reduced_systems;
 mod review;
 mod scenarios;
 mod seeded;

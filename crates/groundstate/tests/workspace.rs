@@ -204,3 +204,54 @@ fn a_chart_whose_model_cannot_be_read_is_not_called_clean() {
     let findings = workspace.check("DataProducer.chart").expect("it is there");
     assert!(!findings.is_clean() && findings.open.is_some_and(|open| open.contains("DataProducer.asm is locked")));
 }
+
+const TICKER: &str = "chart Ticker
+system ticker
+	tick 1 ms
+	component counter synchronous period 5 ms
+		elaborate count 1 ms by Clock
+		write ticks 1 ms
+	endcomponent
+	component watcher synchronous period 10 ms
+		read ticks 1 ms
+		elaborate look 1 ms
+	endcomponent
+	channel ticks : Boolean from counter to watcher swinging buffer 2
+endsystem
+";
+const CLOCK: &str = "asm Clock
+import StandardLibrary
+signature:
+	out ticks: Boolean
+definitions:
+	main rule r_Main = ticks := not ticks
+default init s0: function ticks = false
+";
+
+#[test]
+fn what_is_to_be_verified_of_a_system_is_looked_at_in_its_chart() {
+    let files = [("Ticker.chart", TICKER), ("Clock.asm", CLOCK)];
+    let check = |text: &str, expected: &[&str]| {
+        let mut workspace = Workspace::new(Memory::of(&files));
+        workspace.set_text("Ticker.verify.yaml", 1, text).expect("the first");
+        let found = lines(&workspace.check("Ticker.verify.yaml").expect("it is open"));
+        assert_eq!(found, expected, "{text}");
+    };
+    check("invariants: [counter_ticks or not counter_ticks]\nltl: g(isDef(counter_ticks))\n", &[]);
+    let at = |place: &str, what: &str| format!("Ticker.verify.yaml:{place} {what} []");
+    check("invariants: [counter_tocks]\n", &[&at("1:14", "unknown-function there is no function `counter_tocks`")]);
+    let unkept = "bad-verification-file this reads clock, which is not kept from tick to tick";
+    check("ctl: [isDef(clock)]\n", &[&at("1:7", unkept)]);
+    check("terminal: clock = 0\n", &[&at("1:11", unkept)]);
+    check("assume: clock >= 0\n", &[&at("1:9", unkept)]);
+    check("limits: 1\n", &[&at("1:1", "bad-verification-file `limits` says nothing here")]);
+    // Without the chart's system there is nothing that the file could be about, whatever else is there.
+    let mut workspace = Workspace::new(Memory::of(&files));
+    workspace.set_text("Ticker.verify.yaml", 1, "invariants: ['true']\n").expect("the first");
+    workspace.set_text("Ticker.chart", 1, TICKER.replace("by Clock", "by Clack")).expect("the first");
+    let found = lines(&workspace.check("Ticker.verify.yaml").expect("it is open"));
+    assert!(found[0].starts_with("Ticker.chart:5:"), "{found:?}");
+    workspace.set_text("Ticker.chart", 2, "chart Ticker\n").expect("the second");
+    let found = lines(&workspace.check("Ticker.verify.yaml").expect("it is open"));
+    assert_eq!(found, ["not checked: there is no model Ticker.asm"]);
+}

@@ -32,7 +32,10 @@ pub fn definition<F: Files>(project: &mut Project<F>, path: &str, offset: u32) -
         return vec![place];
     }
     let names = analysis.names_at(offset).iter();
-    names.filter_map(|name| analysis.declaration(name.referent)).map(|span| analysis.place(span)).collect()
+    let places = names.filter_map(|name| analysis.declaration(name.referent)).map(|span| analysis.place(span));
+    // What is asked of a system may have its names from a model that was not built yet.
+    let mut there = |place: &Place| project.text(&place.path).is_ok();
+    places.collect::<Vec<_>>().into_iter().filter(|place| there(place)).collect()
 }
 
 /// Where what is named at an offset gets its meaning: the definition of a function, the body of a rule, the initial value.

@@ -12,7 +12,7 @@ use groundstate::program::Program;
 use groundstate::reporting::specification_beside;
 use groundstate::session::Scene;
 use groundstate::workspace::{Absent, Files, Findings, NotLoaded, Outdated, Reads, STOPPED, imported, tidy};
-use groundstate::{Kind, Loaded, Suite, Workspace, model_of, patterns};
+use groundstate::{Kind, Loaded, Suite, Workspace, chart_of, model_of, patterns, verified_system};
 use model::{Checked, Loader, Model};
 use syntax::ast::{AstNode, ScenarioFile};
 use syntax::{FileId, Severity, SourceFile, Sources, Stop, SyntaxNode};
@@ -262,9 +262,14 @@ impl<F: Files> Project<F> {
                 let parse = workspace.texts().parse(FileId(0), &source);
                 Analysis::of_model(checked, Some(parse))
             }),
-            Some(Kind::Report | Kind::Verification) => {
+            Some(kind @ (Kind::Report | Kind::Verification)) => {
                 let model = model_of(Path::new(&source.name));
-                self.over_model(source, model.file_name().map(|name| name.to_string_lossy().into_owned()))
+                let is_built = self.text(&model.to_string_lossy()).is_ok();
+                if kind == Kind::Verification && !is_built {
+                    self.over_system(source)
+                } else {
+                    self.over_model(source, model.file_name().map(|name| name.to_string_lossy().into_owned()))
+                }
             }
             // LIMIT: nothing is known of a coupling's names.
             Some(Kind::Coupling) | None => {
@@ -302,6 +307,29 @@ impl<F: Files> Project<F> {
             Base { sources, model }
         });
         (Analysis::over(source, base), reads)
+    }
+
+    /// What is asked of a chart's system that no model was built of yet: its names are those of the model that would be.
+    fn over_system(&mut self, source: SourceFile) -> (Analysis, Reads) {
+        self.workspace.reading(|workspace| {
+            let texts = &mut workspace.texts();
+            _ = texts.read(&source.name);
+            // Whether there is a model now counts, too.
+            _ = texts.read(&model_of(Path::new(&source.name)).to_string_lossy());
+            let chart = texts.read(&chart_of(Path::new(&source.name)).to_string_lossy()).ok();
+            let system = chart.and_then(|chart| verified_system(chart, &["LTLLibrary"], &|_| true, texts).ok());
+            let base = match system {
+                Some(system) => {
+                    let Loaded { sources, model, .. } = system.ground;
+                    Base { sources, model: Model::clone(&model) }
+                }
+                None => {
+                    let Checked { sources, model, .. } = nothing(SourceFile::new("", ""));
+                    Base { sources, model }
+                }
+            };
+            Analysis::over(source, base)
+        })
     }
 
     /// Drops what is not being edited where there is much of it.

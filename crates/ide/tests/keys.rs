@@ -59,3 +59,21 @@ fn keys_of_a_verification_are_those_that_are_read() {
     assert_eq!(offered("Two.verify.yaml", ""), known);
     assert_eq!(offered("Two.verify.yaml", "fair: "), ["strong", "weak"]);
 }
+
+#[test]
+fn what_is_asked_of_a_system_has_its_names_before_a_model_is_built() {
+    let chart = "chart Two\nsystem two\n\ttick 1 ms\n\tcomponent one synchronous period 5 ms\n\t\telaborate count 1 ms by Count\n\tendcomponent\nendsystem\n";
+    let count = "asm Count\nimport StandardLibrary\nsignature:\n\tcontrolled isOdd: Boolean\ndefinitions:\n\tmain rule r_Main = isOdd := not isOdd\ndefault init s0: function isOdd = false\n";
+    let text = "invariants:\n  - one_is";
+    let files = [("Two.chart", chart), ("Count.asm", count), ("Two.verify.yaml", text)];
+    let files = files.map(|(path, text)| (path.to_string(), text.to_string()));
+    let mut project = project(&files.into());
+    let completion = ide::completion(&mut project, "Two.verify.yaml", text.len() as u32);
+    assert!(completion.items.iter().any(|item| item.label == "one_isOdd"), "{completion:?}");
+    let whole = "invariants:\n  - one_isOdd\n";
+    project.set_text("Two.verify.yaml", 1, whole).expect("the first");
+    let hover = ide::hover(&mut project, "Two.verify.yaml", 20).expect("it is known");
+    assert!(format!("{hover:?}").contains("one_isOdd"), "{hover:?}");
+    // The model that declares it was not built: nowhere to go.
+    assert_eq!(ide::definition(&mut project, "Two.verify.yaml", 20), []);
+}

@@ -21,9 +21,11 @@ pub(crate) use spelling::{
     call, control_location, function_name, inner_control, instance_call, memory_location, of_instance, rule_name,
     state_value,
 };
+pub(crate) use system::taken;
 pub use system::{Lengths, busy, late};
 
 use crate::chart::{Chart, Control, Machine, ShapeKind};
+use crate::component::{Cut, Reduction};
 use crate::fault;
 
 /// The result of building.
@@ -130,6 +132,33 @@ pub fn verifiable(chart: &Chart, asks_about: &dyn Fn(&str) -> bool) -> Chart {
     let imports = chart.imports.iter().cloned().zip(chart.places.iter().copied()).filter(own);
     (bare.imports, bare.places) = imports.unzip();
     bare
+}
+
+/// A part of a chart's system in whose runs are all that the system has, as far as some functions are concerned.
+#[derive(Debug)]
+pub struct Reduced {
+    /// The system of the part.
+    pub chart: Chart,
+    /// The inputs that stand for what was left free.
+    pub free: Vec<String>,
+    /// Those of them that may be undef.
+    pub undefined: Vec<String>,
+    /// The components whose machines are a part of it.
+    pub components: Vec<String>,
+}
+
+/// The part of a chart that is enough if these functions of machines rest on no more than is left: first only these functions, then, each time
+/// it is widened, also what they read. None if there is none so wide that leaves anything out.
+pub fn reduced(chart: &Chart, asks_about: &dyn Fn(&str) -> bool, widenings: usize) -> Option<Reduced> {
+    let system = chart.system.as_ref()?;
+    let mut reduction = Reduction::of(system, asks_about)?;
+    for _ in 0..widenings {
+        reduction = reduction.widened(system)?;
+    }
+    let Cut { system: part, free, undefined } = reduction.cut(system);
+    let components = reduction.names(system).into_iter().map(str::to_string).collect();
+    let chart = Chart { system: Some(system::without_rules(part)), ..chart.clone() };
+    Some(Reduced { chart, free, undefined, components })
 }
 
 /// The functions of machines, sensors and actuators of a [`verifiable`] chart that [`verified`] keeps as they are in the ground model.

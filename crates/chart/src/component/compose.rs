@@ -182,6 +182,7 @@ fn component(system: &System, machine: &ComponentMachine, carrying: Carrying, co
             let Some(name) = declared(&node) else { continue };
             let name = match node.kind() {
                 SyntaxKind::RULE_DECL => names.rule(name.text()),
+                SyntaxKind::FUNCTION_DEF if names.is_free(name.text()) => continue,
                 SyntaxKind::FUNCTION_DEF => names.function(name.text()),
                 SyntaxKind::DOMAIN_DEF => names.domain(name.text()),
                 // What a machine has to keep is about the machine alone.
@@ -210,7 +211,7 @@ fn component(system: &System, machine: &ComponentMachine, carrying: Carrying, co
         {
             let about = declared(&node).map(|name| name.text().to_string()).unwrap_or_default();
             // What is fed has the value of what feeds it.
-            if !machine.feeds.iter().any(|(name, _)| *name == about) {
+            if !machine.feeds.iter().any(|(name, _)| *name == about) && !names.is_free(&about) {
                 computing.initial.push(format!("{}\n", names.text(&node)));
             }
         }
@@ -302,6 +303,7 @@ fn signature(machine: &ComponentMachine, names: &Names<'_>, tree: &ast::SourceFi
         let feed = machine.feeds.iter().find(|(name, _)| *name == function.name).map(|(_, feed)| feed);
         let take = machine.takes.iter().find(|(name, _)| *name == function.name).map(|(_, take)| take);
         let kind = match (feed, take) {
+            _ if names.is_free(&function.name) => Some("monitored"),
             (Some(Feed::Sensor(_)), _) | (_, Some(Take::Actuator(_))) => continue,
             (Some(Feed::Channel(_) | Feed::IsNew(_)), _) => Some("derived"),
             (_, Some(Take::Channel(_))) => Some("controlled"),

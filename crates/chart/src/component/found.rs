@@ -3,7 +3,7 @@
 //! In: the chart's imports and a [`Loader`]. Out: for each elaboration with a machine its text and its checked model. A machine is a file
 //! of that name in the chart's folder, or one that the chart imports. It has a main rule, which is its step, and no agents.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use model::{Checked, Loader};
@@ -59,6 +59,7 @@ pub(super) fn find(
                 folder,
                 file: *file,
                 checked: Arc::clone(checked),
+                freed: BTreeSet::new(),
                 source,
             });
         }

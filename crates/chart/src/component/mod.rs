@@ -7,13 +7,16 @@
 
 pub(crate) mod carry;
 mod compose;
+mod cut;
 mod found;
 mod own;
+mod reads;
 mod roles;
 mod slice;
 mod types;
 
 pub(crate) use compose::{Carrying, compose};
+pub(crate) use cut::{Cut, Reduction};
 pub(crate) use slice::slice;
 
 use model::Loader;

@@ -9,6 +9,7 @@ use model::Referent;
 use syntax::ast::{self, AstNode};
 use syntax::{FileId, Span, SyntaxKind, SyntaxNode, SyntaxToken};
 
+use super::reads;
 use crate::computing::ComponentMachine;
 
 /// The names of a machine within its component.
@@ -63,11 +64,35 @@ impl<'m> Names<'m> {
         format!("{}_{name}", self.component.to_uppercase())
     }
 
-    /// The text of a part, with these names.
+    /// Whether a function may have any value in each step.
+    pub(super) fn is_free(&self, name: &str) -> bool {
+        self.machine.freed.contains(name)
+    }
+
+    /// The text of a part, with these names, and without what is done to functions that are free.
     pub(super) fn text(&self, node: &SyntaxNode) -> String {
-        let tokens = node.descendants_with_tokens().filter_map(|element| element.into_token());
-        let text: String = tokens.map(|token| self.token(&token)).collect();
+        let mut text = String::new();
+        if self.machine.freed.is_empty() {
+            let tokens = node.descendants_with_tokens().filter_map(|element| element.into_token());
+            text.extend(tokens.map(|token| self.token(&token)));
+        } else if let Some(tree) = node.ancestors().last() {
+            self.kept_text(&tree, node, &mut text);
+        }
         text.trim().to_string()
+    }
+
+    fn kept_text(&self, tree: &SyntaxNode, node: &SyntaxNode, text: &mut String) {
+        if ast::Rule::cast(node.clone()).is_some() && reads::is_idle(tree, node, &|name| self.is_free(name)) {
+            // Comments before it may stand within it.
+            text.push_str(" skip ");
+            return;
+        }
+        for child in node.children_with_tokens() {
+            match child.as_token() {
+                Some(token) => text.push_str(&self.token(token)),
+                None => child.as_node().into_iter().for_each(|child| self.kept_text(tree, child, text)),
+            }
+        }
     }
 
     fn token(&self, token: &SyntaxToken) -> String {

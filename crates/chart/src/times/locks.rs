@@ -55,7 +55,7 @@ fn has_room(system: &System, channel: &Channel) -> bool {
 
 /// How long a component holds the lock of a channel, with the tick in which it is handed over: a slave while it works on its array, the
 /// master while it updates the indexes.
-pub(super) fn section(system: &System, channel: usize, user: usize) -> u64 {
+pub(crate) fn section(system: &System, channel: usize, user: usize) -> u64 {
     let ChannelKind::Buffer { master, .. } = system.channels[channel].kind else { return 0 };
     if master == user {
         return 2;

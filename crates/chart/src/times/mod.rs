@@ -23,6 +23,7 @@ use response::{Demand, on_one, on_several};
 
 pub use ages::{Age, Way};
 pub use fresh::{Fresh, bounded};
+pub(crate) use locks::section;
 pub use missed::Missed;
 
 /// What the tasks share, and which goes first.

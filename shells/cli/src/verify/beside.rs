@@ -12,7 +12,7 @@ use crate::failure::Failure;
 use crate::files::read_text;
 use crate::shell::Shell;
 
-/// The path of a model's file.
+/// The path of the file of a model or a chart.
 pub fn path_of(model: &Path) -> PathBuf {
     model.with_extension("verify.yaml")
 }

@@ -24,7 +24,7 @@ pub struct Bounded {
     /// An input that may also be undef; may be repeated
     #[arg(long, value_name = "NAME")]
     pub undefined: Vec<String>,
-    /// What to verify, and with which inputs. Default: MODEL.verify.yaml beside the model
+    /// What to verify, and with which inputs. Default: MODEL.verify.yaml beside the model or the chart
     #[arg(long, value_name = "FILE")]
     pub spec: Option<PathBuf>,
     /// The most states
@@ -39,6 +39,9 @@ pub struct Bounded {
     /// The most time, in seconds
     #[arg(long, value_name = "SECONDS", value_parser = crate::limits::count)]
     pub time: Option<u64>,
+    /// Properties that were proved already: the place of their kind, and their texts.
+    #[arg(skip)]
+    pub proved: Vec<(usize, String)>,
 }
 
 /// The limits of a survey if none is given: without them, it never ends on infinitely many states.
@@ -68,17 +71,21 @@ impl Bounded {
         sources: &mut Sources,
         model: &Path,
     ) -> Result<Option<Verification>, Failure> {
-        // What stands beside a chart is about the model that is built of it.
-        if self.spec.is_none() && model.extension().is_some_and(|ending| ending == "chart") {
-            return Ok(Some(Verification::default()));
-        }
-        let Some(read) = beside(shell, sources, self.spec.as_deref(), model)? else { return Ok(None) };
+        let Some(mut read) = beside(shell, sources, self.spec.as_deref(), model)? else { return Ok(None) };
+        self.leave_out_proved(&mut read);
         let faults = read.faults(program);
         if faults.is_empty() {
             return Ok(Some(read));
         }
         shell.diagnostics(sources, &faults)?;
         Ok(None)
+    }
+
+    /// Takes out of a file what was proved already.
+    pub fn leave_out_proved(&self, read: &mut Verification) {
+        for (kind, text) in &self.proved {
+            read.properties[*kind].retain(|scalar| &**scalar != text.as_str());
+        }
     }
 
     /// Bounds the memory of the process. If it takes more already, only the states are counted.

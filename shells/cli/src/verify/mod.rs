@@ -11,6 +11,7 @@ mod counterexample;
 mod disk;
 mod live;
 mod operators;
+mod reduced;
 mod system;
 mod tell;
 pub mod watch;
@@ -42,7 +43,7 @@ use live::Live;
 pub use tell::Teller;
 
 /// Arguments of `verify`.
-#[derive(Debug, Args)]
+#[derive(Debug, Clone, Args)]
 pub struct Arguments {
     /// The model, or a chart with a system
     model: PathBuf,
@@ -184,7 +185,10 @@ const OPTIONS: [&str; 3] = ["--invariant", "--ctl", "--ltl"];
 
 /// Runs the command.
 pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
-    let system = match arguments.model.extension().is_some_and(|ending| ending == "chart") {
+    let is_chart = arguments.model.extension().is_some_and(|ending| ending == "chart");
+    let rest = if is_chart { Some(without_proved(shell, arguments)?) } else { None };
+    let arguments = rest.as_ref().unwrap_or(arguments);
+    let system = match is_chart {
         true => match system::load(shell, arguments)? {
             Ok(system) => Some(system),
             Err(exit) => return Ok(exit),
@@ -336,6 +340,23 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     checkpoint.map_or(Ok(()), Checkpoint::done)?;
     folder.map_or(Ok(()), |folder| folder.done())?;
     Ok(exit(&report))
+}
+
+/// The arguments without what is proved of parts of the chart's system, and without the time that it took.
+fn without_proved(shell: &mut Shell, arguments: &Arguments) -> Result<Arguments, Failure> {
+    let begin = std::time::Instant::now();
+    let proved = reduced::prove(shell, arguments)?;
+    let mut rest = arguments.clone();
+    for (kind, text) in &proved {
+        let texts = [&mut rest.invariants, &mut rest.ctl, &mut rest.ltl];
+        if let Some(texts) = texts.into_iter().nth(*kind) {
+            texts.retain(|other| other != text);
+        }
+    }
+    rest.bounded.proved = proved;
+    let spent = begin.elapsed().as_secs();
+    rest.bounded.time = rest.bounded.time.map(|seconds| seconds.saturating_sub(spent).max(1));
+    Ok(rest)
 }
 
 /// A model with what is asked about it; what stands beside it; and the states that are no deadlocks.

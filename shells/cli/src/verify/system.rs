@@ -14,7 +14,7 @@ use groundstate::job::{self, Cancel, VerifyEvent};
 use groundstate::tell::{Story, Verdicts};
 use groundstate::verify::temporal::fairness::AgentFairness;
 use groundstate::verify::{NoSolvers, Options, Outcome, Report, Request, Subject, Trace};
-use groundstate::{Overlay, VerifiedSystem};
+use groundstate::{Overlay, VerifiedSystem, libraries_of, words};
 use machine::Limits;
 use program::{Expression, Program, PropertyKind};
 use syntax::Sources;
@@ -34,13 +34,11 @@ use crate::shell::Shell;
 pub fn load(shell: &mut Shell, arguments: &Arguments) -> Result<Result<Box<VerifiedSystem>, Exit>, Failure> {
     let mut disk = shell.disk();
     let root = disk.root(&arguments.model)?;
-    let libraries: &[&str] = if arguments.ltl.is_empty() { &[] } else { &["LTLLibrary"] };
     // What a file says beside the options; its faults are told when it is read for the loaded model.
-    let said = match &arguments.bounded.spec {
-        Some(path) => beside(shell, &mut Sources::default(), Some(path), &arguments.model)?,
-        None => Some(Verification::default()),
-    };
-    let Some(said) = said else { return Ok(Err(Exit::World)) };
+    let said = beside(shell, &mut Sources::default(), arguments.bounded.spec.as_deref(), &arguments.model)?;
+    let Some(mut said) = said else { return Ok(Err(Exit::World)) };
+    arguments.bounded.leave_out_proved(&mut said);
+    let libraries = if arguments.ltl.is_empty() { libraries_of(&said) } else { &["LTLLibrary"] };
     let spoken = words_of(arguments, &said);
     let speaks_of = |function: &str| arguments.data || spoken.contains(function);
     match groundstate::verified_system(root, libraries, &speaks_of, &mut disk) {
@@ -69,11 +67,9 @@ pub fn load(shell: &mut Shell, arguments: &Arguments) -> Result<Result<Box<Verif
 fn words_of(arguments: &Arguments, said: &Verification) -> BTreeSet<String> {
     let options = [&arguments.invariants, &arguments.ctl, &arguments.ltl, &arguments.assumptions];
     let options = options.into_iter().flatten().chain(&arguments.terminal);
-    let inputs = arguments.bounded.bounds.iter().chain(&arguments.bounded.undefined).chain(&said.bounds);
-    let file = said.properties.iter().flatten().chain(&said.assumptions).chain(&said.terminal).chain(&said.undefined);
-    let texts = options.chain(inputs).map(String::as_str).chain(file.map(|text| &**text));
-    let word = |part: &str| part.to_string();
-    texts.flat_map(|text| text.split(|c: char| !c.is_alphanumeric() && c != '_')).map(word).collect()
+    let inputs = arguments.bounded.bounds.iter().chain(&arguments.bounded.undefined);
+    let own = options.chain(inputs).flat_map(|text| words(text)).map(str::to_string);
+    groundstate::words_of(said).into_iter().chain(own).collect()
 }
 
 /// Says what the verdicts are about.
@@ -120,12 +116,10 @@ pub fn refuse(
 ) -> Result<(), Failure> {
     let properties = asked.program.properties[own..].iter().map(|property| (property.name.as_str(), &property.formula));
     for (name, formula) in properties.chain(terminal.map(|term| ("--terminal", term))) {
-        let read = groundstate::not_kept(&asked.program, formula, &system.data);
-        if !read.is_empty() {
+        if let Some(reason) = groundstate::refusal(&asked.program, formula, &system.data) {
             let help =
                 "ask about phases, locks, queues, what is pending or fresh; or verify the model of `chart build`";
-            let message = format!("`{name}` reads {}, which is not kept from tick to tick", read.join(", "));
-            return Err(Failure::usage_with_help(message, help));
+            return Err(Failure::usage_with_help(format!("`{name}` {reason}"), help));
         }
     }
     Ok(())
