@@ -43,6 +43,7 @@ fn options(seed: Option<u64>) -> SessionOptions {
         recorded: None,
         limits: Limits::default(),
         watched: None,
+        begins: false,
     }
 }
 

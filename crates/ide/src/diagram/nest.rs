@@ -56,8 +56,7 @@ impl Work {
         if matches!(shape, Shape::Entry(_) | Shape::Exit(_) | Shape::Abort(_)) {
             return Err(format!("`{name}` is an action of its composite state, and stays there"));
         }
-        let around =
-            shape.around().and_then(|around| Some(around.syntax().clone())).unwrap_or(machine.syntax().clone());
+        let around = shape.around().map_or_else(|| machine.syntax().clone(), |around| around.syntax().clone());
         let wanted = match into {
             None => machine.syntax().clone(),
             Some(into) => {

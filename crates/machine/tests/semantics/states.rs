@@ -366,7 +366,9 @@ fn what_no_rule_updates_may_be_set_from_outside() {
         };
         go(&mut machine);
         let (mark, snapshot) = (machine.mark(), machine.snapshot());
-        machine.set(&location(&machine, "rate", &[colour.clone()]), Value::Integer(100)).expect("an Integer");
+        machine
+            .set(&location(&machine, "rate", std::slice::from_ref(&colour)), Value::Integer(100))
+            .expect("an Integer");
         go(&mut machine);
         machine.set(&location(&machine, "base", &[]), Value::Integer(7)).expect("an Integer");
         go(&mut machine);
