@@ -24,6 +24,8 @@ signature:
 	controlled task_timeForElaboration: Task -> Integer
 	// ticks from the start of a period to the time at which its cycle must be done; undef: the whole period
 	controlled task_deadline: Task -> Integer
+	// it may miss deadlines, so its cycles may begin late; undef: no
+	controlled mayBeLate: Task -> Boolean
 
 	// The present cycle
 	controlled task_periodStart: Task -> Integer

@@ -19,9 +19,6 @@ signature:
 	// the time of a phase that ends in this tick; undef between two ticks
 	controlled fullTime: SchedulePhase -> Integer
 
-	// it may miss deadlines, so its cycles may begin late; undef: no
-	controlled mayBeLate: Task -> Boolean
-
 	// the datum that the consumer works with is at most so many ticks old
 	derived isWithin: Prod(SwingingBuffer, Integer) -> Boolean
 	derived isEndless: Scheduler -> Boolean

@@ -14,10 +14,10 @@ mod packed;
 mod settings;
 mod starts;
 
-pub use alternatives::branches::{Unbounded, UnboundedKind};
 pub use alternatives::expansion::Expansion;
 pub use alternatives::kind::AlternativeKind;
 pub use alternatives::told::{ChoiceTaken, Told};
+pub use alternatives::unbounded::{Unbounded, UnboundedKind};
 pub use assumed::{assumed_bounds, input_values};
 pub use explorer::Explorer;
 pub use explorer::orbit::{Orbits, Permutation};

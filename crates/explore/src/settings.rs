@@ -6,7 +6,7 @@ use machine::inside::SharedCode;
 use machine::{Bounds, Cause, EngineChoice, Fault, Interrupt, Limits};
 use program::Expression;
 
-use crate::alternatives::branches::Unbounded;
+use crate::alternatives::unbounded::Unbounded;
 use crate::packed::widening::Widening;
 
 /// What an explorer is made with.

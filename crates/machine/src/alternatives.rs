@@ -9,7 +9,7 @@ use program::{FunctionId, Program};
 use syntax::Span;
 
 use crate::layout::LocationIndex;
-use crate::pieces::{Edit, Piece};
+use crate::piece::{Edit, Piece};
 use crate::value::Value;
 
 /// The values that an input takes, where they are not all those of its domain.

@@ -19,7 +19,7 @@ use crate::fault::{ClashSide, FaultKind};
 use crate::layout::LocationIndex;
 use crate::location::Location;
 use crate::observe::Observation;
-use crate::pieces::Edit;
+use crate::piece::Edit;
 use crate::print::Show;
 use crate::store::Store;
 use crate::update::Clash;

@@ -12,33 +12,8 @@ use program::{Builtin, FunctionId, Rule, RuleId, Term, TermId, TermList};
 
 use crate::execute::{Executor, Outcome};
 use crate::layout::LocationIndex;
+use crate::piece::{Edit, Piece};
 use crate::value::Value;
-
-/// A piece of a collection.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Piece<'v> {
-    /// How long the sequence is.
-    Length,
-    /// Its element of this position, which it has.
-    Element(usize),
-    /// Whether the set has this element.
-    Member(&'v Value),
-}
-
-/// How a rule changes a collection.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Edit {
-    /// The sequence gets one more element at its end.
-    Append(Value),
-    /// The same at its beginning.
-    Prepend(Value),
-    /// It loses its first element.
-    Tail,
-    /// The set has this element.
-    Include(Value),
-    /// It does not have it.
-    Exclude(Value),
-}
 
 /// Which operand of a builtin is the collection that it looks at a piece of.
 fn looks_at_piece(builtin: Builtin) -> bool {

@@ -1,6 +1,6 @@
 //! Runs of a session that are written as scenarios, and scenarios that are played though they lie in no file.
 
-use serde_json::json;
+use serde_json::{Value, json};
 
 use crate::lsp::Editor;
 

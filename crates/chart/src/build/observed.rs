@@ -116,15 +116,16 @@ pub(super) fn weakly_hard(system: &System) -> impl Iterator<Item = (&Component, 
 /// Configuration and initial values.
 pub(super) fn define(system: &System, define: &mut impl FnMut(&str, &str)) {
     if weakly_hard(system).next().is_some() {
-        let each = |value: &dyn Fn(&Tolerance) -> u64| {
+        let each = |value: &dyn Fn(&Tolerance) -> String| {
             let row = |component: &Component| {
-                let value = component.tolerance.as_ref().map_or("undef".to_string(), |one| value(one).to_string());
+                let value = component.tolerance.as_ref().map_or("undef".to_string(), value);
                 (format!("{}_task", component.name), value)
             };
             by_case("$t", &system.components.iter().map(row).collect::<Vec<_>>())
         };
-        define("task_window($t in Task)", &each(&|one| one.cycles));
-        define("task_mayMiss($t in Task)", &each(&|one| one.missed));
+        define("mayBeLate($t in Task)", &each(&|_| "true".to_string()));
+        define("task_window($t in Task)", &each(&|one| one.cycles.to_string()));
+        define("task_mayMiss($t in Task)", &each(&|one| one.missed.to_string()));
         define("task_lateCycles($t in Task)", "{}");
         for name in ["mostMissed", "tooManyMissed"] {
             define(&format!("task_{name}($t in Task)"), "0");

@@ -244,13 +244,6 @@ pub(super) fn verified(chart: &Chart, system: &System, library: &str, lengths: L
     define("before_written($b in SwingingBuffer)", "0");
     define("before_phase($c in Scheduler)", "scheduler_currentPhase($c)");
     define("lostSilently($v in SharedValue)", "false");
-    if observed::weakly_hard(&system).next().is_some() {
-        let late = |component: &Component| {
-            (self::task(component), if component.tolerance.is_some() { "true" } else { "undef" }.to_string())
-        };
-        let late: Vec<_> = system.components.iter().map(late).collect();
-        define("mayBeLate($t in Task)", &by_case("$t", &late));
-    }
     if let Some(oldest) = system.bounds.iter().map(|bound| bound.limit).max() {
         define("tooOld", &(oldest + 1).to_string());
     }

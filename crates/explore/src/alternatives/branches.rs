@@ -18,31 +18,10 @@ use program::{DomainId, FunctionId, Program};
 use syntax::Span;
 
 use crate::alternatives::told::ChoiceTaken;
+use crate::alternatives::unbounded::{Unbounded, UnboundedKind};
 use crate::packed::collection::Collection;
 use crate::packed::encoding::Encoding;
 use crate::packed::words::{Field, NOWHERE, REST};
-
-/// What kind of alternatives cannot be gone through.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum UnboundedKind {
-    /// The values of an input.
-    Input(FunctionId),
-    /// The candidates of a choice.
-    Choice,
-    /// The readings of the clock.
-    Clock,
-    /// What a step may take: see [`machine::Limits`].
-    Limit,
-}
-
-/// Alternatives without end.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Unbounded {
-    /// Of what kind.
-    pub kind: UnboundedKind,
-    /// The function's declaration, or the choose rule.
-    pub span: Span,
-}
 
 /// What a step does that matters to how it goes on, in order.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -25,10 +25,11 @@ use program::{Expression, FunctionId, FunctionKind, Program, Slot};
 use rustc_hash::FxHashSet;
 use syntax::Span;
 
-use crate::alternatives::branches::{Branches, Pieces, Unbounded};
+use crate::alternatives::branches::{Branches, Pieces};
 use crate::alternatives::expansion::Expansion;
 use crate::alternatives::kind::AlternativeKind;
 use crate::alternatives::successors::Successors;
+use crate::alternatives::unbounded::Unbounded;
 use crate::memory::condition::Condition;
 use crate::memory::maker::{StepMaker, Unmade};
 use crate::memory::steps::Steps;

@@ -6,9 +6,9 @@ use std::ops::ControlFlow;
 
 use machine::{Fault, Location, Value};
 
-use crate::alternatives::branches::Unbounded;
 use crate::alternatives::kind::AlternativeKind;
 use crate::alternatives::told::ChoiceTaken;
+use crate::alternatives::unbounded::Unbounded;
 use crate::explorer::Explorer;
 use crate::packed::widening::Widening;
 use crate::packed::words::apply;

@@ -96,8 +96,8 @@ mod tests {
 
     #[test]
     fn sequences_get_the_bits_that_are_left() {
-        // Six messages of four bits and a length of three; six acknowledgements of three bits and a length.
-        check(vec![want(1, 12, None), want(1, 32, sequences(10, 0)), want(1, 32, sequences(5, 0))], &[12, 27, 21]);
+        // Six messages of four bits and a length of three; seven acknowledgements of three bits and a length.
+        check(vec![want(1, 12, None), want(1, 32, sequences(10, 0)), want(1, 32, sequences(5, 0))], &[12, 27, 24]);
         // One that needs more than a word has gets it in the second, and so do the others.
         check(vec![want(1, 40, None), want(1, 32, sequences(16, 7))], &[40, 60]);
     }

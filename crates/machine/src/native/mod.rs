@@ -12,6 +12,7 @@ mod binder;
 mod code;
 mod commit;
 mod comprehension;
+mod constant;
 mod context;
 mod gathered;
 mod helper;

@@ -134,7 +134,7 @@ fn states_left_out_and_faults_are_walked_past() {
          controlled x: Small controlled y: Small monitored m: Small monitored early: Boolean\n\
          definitions: domain Small = {{0 : 9}}\n invariant inv_x over x: x + y < 9\n\
          main rule r_Main = if early then x := m else if x = 7 then y := 1 mod (x - 7) else\n\
-         par x := (x + m) mod 10 y := (y + 1) mod 10 wideA := x mod 1 endpar endif endif\n\
+         par x := (x + m) mod 10 y := (y + 1) mod 10 wideA := x mod 1 wideB := x mod 1 wideC := x mod 1 endpar endif endif\n\
          default init s0: function x = 0 function y = 0 function wideA = 0 function wideB = 0 function wideC = 0"
     );
     let program = lowered(&text).expect("a model");
