@@ -264,6 +264,10 @@ fn follow(part: &ReducedSystem) -> usize {
                 }
                 match before.get(&of_whole(name)).filter(|_| part.free.iter().any(|free| free == name)) {
                     Some(value) => {
+                        assert!(
+                            value != "undef" || part.undefined.iter().any(|one| one == name),
+                            "{name} may be undef"
+                        );
                         count.set(1);
                         Some(value.clone())
                     }
