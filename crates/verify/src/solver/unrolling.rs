@@ -150,7 +150,11 @@ impl<'r> Unrolling<'r> {
 
     /// Whether the assertions are satisfiable with some names (or their negations) assumed.
     pub fn possible(&mut self, assumed: &[String], patience: &mut Patience<'_>) -> Result<Verdict, Silence> {
-        let _ = writeln!(self.text, "(check-sat-assuming ({}))", assumed.join(" "));
+        // Not every solver reads an empty list.
+        let _ = match assumed.is_empty() {
+            true => writeln!(self.text, "(check-sat)"),
+            false => writeln!(self.text, "(check-sat-assuming ({}))", assumed.join(" ")),
+        };
         let answer = self.ask(patience)?;
         verdict(&answer)
     }
