@@ -5,7 +5,7 @@
 import type { ReactNode } from 'react'
 
 import { words } from '../words'
-import type { AgeTimes, FreshTimes, SystemTimes, TaskTimes } from './jobs'
+import type { SystemTimes, TaskTimes } from './jobs'
 
 // Milliseconds as a chart writes them, as exactly as they are.
 const shown = (ns: number | null): string => (ns === null ? '' : `${ns / 1e6} ms`)
@@ -38,8 +38,8 @@ export function TimesTables({ all }: { all: SystemTimes[] }): ReactNode {
           ))}
         </tbody>
       </table>
-      {times.ages.length > 0 && <Ages ages={times.ages} />}
-      {times.fresh.length > 0 && <Fresh all={times.fresh} />}
+      {times.ages.length > 0 && <Bounds caption={words.times.ages} heads={[words.times.from, words.times.to]} all={times.ages.map((age) => ({ ...age, names: [age.from, age.to] }))} />}
+      {times.fresh.length > 0 && <Bounds caption={words.times.fresh} heads={[words.times.reader, words.times.channel]} all={times.fresh.map((one) => ({ ...one, names: [one.reader, one.channel] }))} />}
     </section>
   ))
 }
@@ -77,41 +77,22 @@ function Kept({ within, reason }: { within: boolean | null; reason: string | nul
   )
 }
 
-function Fresh({ all }: { all: FreshTimes[] }): ReactNode {
-  return (
-    <table>
-      <caption>{words.times.fresh}</caption>
-      <thead>
-        <tr>
-          {[words.times.reader, words.times.channel, words.times.most, words.times.bound, words.times.kept].map((word) => (
-            <th key={word} scope="col">
-              {word}
-            </th>
-          ))}
-        </tr>
-      </thead>
-      <tbody>
-        {all.map((one) => (
-          <tr key={`${one.reader} ${one.channel}`}>
-            <th scope="row">{one.reader}</th>
-            <td>{one.channel}</td>
-            <td>{shown(one.most_ns)}</td>
-            <td>{shown(one.limit_ns)}</td>
-            <Kept within={one.within} reason={one.reason} />
-          </tr>
-        ))}
-      </tbody>
-    </table>
-  )
+interface Bounded {
+  names: [string, string]
+  most_ns: number | null
+  limit_ns: number | null
+  within: boolean | null
+  reason: string | null
 }
 
-function Ages({ ages }: { ages: AgeTimes[] }): ReactNode {
+// What is bounded, with the longest time that it can take; its two names have the first two heads.
+function Bounds({ caption, heads, all }: { caption: string; heads: [string, string]; all: Bounded[] }): ReactNode {
   return (
     <table>
-      <caption>{words.times.ages}</caption>
+      <caption>{caption}</caption>
       <thead>
         <tr>
-          {[words.times.from, words.times.to, words.times.most, words.times.bound, words.times.kept].map((word) => (
+          {[...heads, words.times.most, words.times.bound, words.times.kept].map((word) => (
             <th key={word} scope="col">
               {word}
             </th>
@@ -119,13 +100,13 @@ function Ages({ ages }: { ages: AgeTimes[] }): ReactNode {
         </tr>
       </thead>
       <tbody>
-        {ages.map((age) => (
-          <tr key={`${age.from} ${age.to}`}>
-            <th scope="row">{age.from}</th>
-            <td>{age.to}</td>
-            <td>{shown(age.most_ns)}</td>
-            <td>{shown(age.limit_ns)}</td>
-            <Kept within={age.within} reason={age.reason} />
+        {all.map(({ names, most_ns, limit_ns, within, reason }) => (
+          <tr key={names.join(' ')}>
+            <th scope="row">{names[0]}</th>
+            <td>{names[1]}</td>
+            <td>{shown(most_ns)}</td>
+            <td>{shown(limit_ns)}</td>
+            <Kept within={within} reason={reason} />
           </tr>
         ))}
       </tbody>

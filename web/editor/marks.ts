@@ -189,8 +189,7 @@ export class Marks {
     known.forEach((shapes, index) => {
       note(shapes, null)
       const here = at[index]
-      // The parts of what never ran are not told one by one.
-      // Of a rule that never ran only the name is told.
+      // Of a rule that never ran only the name is told, and not its parts one by one.
       for (const item of missing) if (item.what === WHOLE && shapes?.rule === item.rule) note(shapes, item.message)
       for (const item of missing) if (!isBeside(item) && here && before(item.range.start, here) && before(here, item.range.end)) note(shapes, item.message)
     })

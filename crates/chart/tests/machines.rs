@@ -1,9 +1,8 @@
 //! Components' own machines: how their functions meet channels and devices, what they become in the ground model, and the faults.
 
 use chart::{Feed, Known, Take, build};
-use model::Loader;
 use syntax::SourceFile;
-use testkit::{NoSolver, Patterns, Texts};
+use testkit::{NoSolver, Texts, WithPatterns};
 
 const MESSAGES: &str = "module Messages
 export *
@@ -64,20 +63,8 @@ system cell
 endsystem
 ";
 
-/// Files in memory, and the pattern library.
-struct Files(Texts);
-
-impl Loader for Files {
-    fn load(&mut self, importer: &SourceFile, path: &str) -> Result<SourceFile, String> {
-        if importer.name.starts_with("patterns/") || path.starts_with("patterns/") {
-            return Patterns.load(importer, path);
-        }
-        self.0.load(importer, path)
-    }
-}
-
-fn files(sequencer: &str) -> Files {
-    Files(Texts::of([
+fn files(sequencer: &str) -> WithPatterns {
+    WithPatterns(Texts::of([
         ("Messages.asm", MESSAGES),
         ("machines/Messages.asm", MESSAGES),
         ("machines/Sequencer.asm", sequencer),
@@ -253,7 +240,7 @@ fn the_example_of_the_page() {
     let page = testkit::Page::spec("charts");
     let block =
         |words: &str| page.blocks().into_iter().find(|block| block.text.starts_with(words)).expect("a block").text;
-    let mut files = Files(Texts::of([("Sequencer.asm", block("asm Sequencer"))]));
+    let mut files = WithPatterns(Texts::of([("Sequencer.asm", block("asm Sequencer"))]));
     let loaded = chart::load(SourceFile::new("Cell.chart", block("chart Cell")), &mut files);
     assert_eq!(loaded.diagnostics, []);
     let mut drawn = loaded.chart;

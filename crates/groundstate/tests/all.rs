@@ -2,9 +2,11 @@
 //! folder is a module here.
 
 mod aged_systems;
+mod asked_run;
 mod bounded_systems;
 mod composite_states;
 mod decision;
+mod draw;
 mod invariants;
 mod jobs;
 mod labels;

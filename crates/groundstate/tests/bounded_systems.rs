@@ -8,21 +8,11 @@ use machine::{Closed, Limits, Machine, Value};
 use syntax::SourceFile;
 use testkit::Patterns;
 
+use crate::draw::Draw;
+
 fn system(text: &str) -> Box<VerifiedSystem> {
     let system = verified_system(SourceFile::new("Bounded.chart", text), &[], &|_| false, &mut Patterns);
     system.unwrap_or_else(|faults| panic!("{text}\n{faults:#?}"))
-}
-
-/// A draw of numbers that is the same each time.
-struct Draw(u64);
-
-impl Draw {
-    fn number(&mut self, least: u64, most: u64) -> u64 {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        least + self.0 % (most - least + 1)
-    }
 }
 
 /// Two tasks and a channel, all times fixed: there is one run. The reader may be late, and its reading is bounded.

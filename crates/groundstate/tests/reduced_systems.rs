@@ -1,16 +1,16 @@
 //! A part of a system has all runs of the whole: each run of the whole is followed in the part, tick by tick, with what the whole had at
 //! that moment for what the part leaves free. All that the part keeps, and when its tasks do what, must be the same.
 
-use std::collections::BTreeMap;
 use std::hash::{DefaultHasher, Hash, Hasher};
 
 use groundstate::simulate::read_value;
-use groundstate::{Loaded, ReducedSystem, reduced_system, verified_system};
-use machine::{Choice, Closed, Environment, Limits, LocationRef, Machine, Show, TimeUnit, Value};
-use model::Loader;
-use program::{DomainId, Expression, Program, Term};
+use groundstate::{ReducedSystem, reduced_system, verified_system};
+use machine::{Choice, Closed, Environment, LocationRef, TimeUnit, Value};
+use program::{DomainId, Program, Term};
 use syntax::SourceFile;
-use testkit::{Patterns, Texts};
+use testkit::{Texts, WithPatterns};
+
+use crate::asked_run::AskedRun;
 
 const COUNTING: &str = "asm Counting
 import StandardLibrary
@@ -115,20 +115,9 @@ system cell
 endsystem
 ";
 
-struct Files(Texts);
-
-impl Loader for Files {
-    fn load(&mut self, importer: &SourceFile, path: &str) -> Result<SourceFile, String> {
-        if importer.name.starts_with("patterns/") || path.starts_with("patterns/") {
-            return Patterns.load(importer, path);
-        }
-        self.0.load(importer, path)
-    }
-}
-
-fn files() -> Files {
+fn files() -> WithPatterns {
     let machines = [("Counting.asm", COUNTING), ("Judging.asm", JUDGING), ("Acting.asm", ACTING)];
-    Files(Texts::of(machines.into_iter().chain([("Levels.asm", LEVELS)])))
+    WithPatterns(Texts::of(machines.into_iter().chain([("Levels.asm", LEVELS)])))
 }
 
 fn chart() -> SourceFile {
@@ -162,40 +151,6 @@ impl Environment for Given<'_> {
 
     fn time(&mut self, unit: TimeUnit) -> Result<i64, String> {
         Closed.time(unit)
-    }
-}
-
-/// A run of a model, and the terms that are asked of its states.
-struct Run {
-    machine: Machine,
-    terms: Vec<(String, Expression)>,
-}
-
-impl Run {
-    fn new(loaded: &Loaded, terms: &[String], answer: Answer<'_>) -> Run {
-        let mut overlay = loaded.overlay();
-        let mut ask = |text: &String| {
-            let term = overlay.value("asked", text).unwrap_or_else(|faults| panic!("{text}: {faults:#?}"));
-            (text.clone(), term)
-        };
-        let terms = terms.iter().map(&mut ask).collect();
-        let mut machine = Machine::new(overlay.program.clone(), Limits::default());
-        machine.start(&mut Given(answer)).unwrap_or_else(|fault| panic!("{fault:?}"));
-        Run { machine, terms }
-    }
-
-    fn values(&mut self) -> BTreeMap<String, String> {
-        let program = self.machine.program().clone();
-        let machine = &mut self.machine;
-        let value = |(name, term): &(String, Expression)| {
-            let value = machine.evaluate(term, &mut Closed).map(|value| value.show(&program).to_string());
-            (name.clone(), value.unwrap_or_else(|fault| format!("{fault:?}")))
-        };
-        self.terms.iter().map(value).collect()
-    }
-
-    fn step(&mut self, answer: Answer<'_>) {
-        self.machine.step(&mut Given(answer)).unwrap_or_else(|fault| panic!("{fault:?}"));
     }
 }
 
@@ -246,8 +201,8 @@ fn follow(part: &ReducedSystem) -> usize {
     let mut asked = 0;
     for seed in 0..3_u64 {
         let closed = |_: &str| None;
-        let mut long = Run::new(&whole.loaded, &all, &closed);
-        let mut short = Run::new(&part.system.loaded, &same, &closed);
+        let mut long = AskedRun::new(&whole.loaded, &all, &mut Given(&closed));
+        let mut short = AskedRun::new(&part.system.loaded, &same, &mut Given(&closed));
         for tick in 0..200_u64 {
             // Some runs end their elaborations early, others late; a stop is rare.
             let input = |name: &str| {
@@ -255,7 +210,7 @@ fn follow(part: &ReducedSystem) -> usize {
                 Some(drawn((seed, tick, name)).is_multiple_of(one_in).to_string())
             };
             let before = long.values();
-            long.step(&input);
+            long.step(&mut Given(&input));
             let after = long.values();
             let count = std::cell::Cell::new(0);
             let follows = |name: &str| {
@@ -274,7 +229,7 @@ fn follow(part: &ReducedSystem) -> usize {
                     None => input(name),
                 }
             };
-            short.step(&follows);
+            short.step(&mut Given(&follows));
             asked += count.get();
             let in_part = short.values();
             for name in &same {
@@ -326,7 +281,7 @@ fn nothing_is_left_out_where_it_could_make_a_difference() {
         .replace("endif\ndefault", "endif endseq\ndefault");
     let machines =
         [("Counting.asm", COUNTING), ("Judging.asm", JUDGING), ("Acting.asm", &acting), ("Levels.asm", LEVELS)];
-    let part = reduced_system(chart(), &[], &|name| name == "arm", 0, &mut Files(Texts::of(machines)));
+    let part = reduced_system(chart(), &[], &|name| name == "arm", 0, &mut WithPatterns(Texts::of(machines)));
     let free = part.expect("no faults").map(|part| part.free).unwrap_or_default();
     assert!(free.iter().all(|name| !name.starts_with("actor_")), "{free:?}");
 }

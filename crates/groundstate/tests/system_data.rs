@@ -7,11 +7,12 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 use groundstate::simulate::read_value;
 use groundstate::verify::{Options, Outcome, verify};
 use groundstate::{Loaded, VerifiedSystem, not_kept, verified_system};
-use machine::{Choice, Closed, Environment, Limits, LocationRef, Machine, Show, TimeUnit, Value};
-use model::Loader;
-use program::{DomainId, Expression, Program, PropertyKind};
+use machine::{Choice, Closed, Environment, Limits, LocationRef, TimeUnit, Value};
+use program::{DomainId, Program, PropertyKind};
 use syntax::SourceFile;
-use testkit::{Patterns, Texts};
+use testkit::{Texts, WithPatterns};
+
+use crate::asked_run::AskedRun;
 
 const LEVELS: &str = "module Levels
 import StandardLibrary
@@ -151,19 +152,8 @@ system small
 endsystem
 ";
 
-struct Files(Texts);
-
-impl Loader for Files {
-    fn load(&mut self, importer: &SourceFile, path: &str) -> Result<SourceFile, String> {
-        if importer.name.starts_with("patterns/") || path.starts_with("patterns/") {
-            return Patterns.load(importer, path);
-        }
-        self.0.load(importer, path)
-    }
-}
-
-fn files() -> Files {
-    Files(Texts::of([("Levels.asm", LEVELS), ("Plan.asm", PLAN), ("Act.asm", ACT), ("Watch.asm", WATCH)]))
+fn files() -> WithPatterns {
+    WithPatterns(Texts::of([("Levels.asm", LEVELS), ("Plan.asm", PLAN), ("Act.asm", ACT), ("Watch.asm", WATCH)]))
 }
 
 fn system(text: &str, speaks_of: &dyn Fn(&str) -> bool) -> Box<VerifiedSystem> {
@@ -196,37 +186,6 @@ impl Environment for Inputs {
 
     fn time(&mut self, unit: TimeUnit) -> Result<i64, String> {
         Closed.time(unit)
-    }
-}
-
-/// A run of a model, and the terms that are asked in each of its states.
-struct Run {
-    machine: Machine,
-    terms: Vec<(String, Expression)>,
-}
-
-impl Run {
-    fn new(loaded: &Loaded, functions: &[String], inputs: &mut Inputs) -> Run {
-        let mut overlay = loaded.overlay();
-        let mut ask = |function: &String| {
-            let term = overlay.value("asked", function).unwrap_or_else(|faults| panic!("{function}: {faults:#?}"));
-            (function.clone(), term)
-        };
-        let terms = functions.iter().map(&mut ask).collect();
-        let mut machine = Machine::new(overlay.program.clone(), Limits::default());
-        machine.start(inputs).unwrap_or_else(|fault| panic!("{fault:?}"));
-        Run { machine, terms }
-    }
-
-    fn step(&mut self, inputs: &mut Inputs) -> BTreeMap<String, String> {
-        self.machine.step(inputs).unwrap_or_else(|fault| panic!("{fault:?}"));
-        let program = self.machine.program().clone();
-        let machine = &mut self.machine;
-        let value = |(name, term): &(String, Expression)| {
-            let value = machine.evaluate(term, &mut Closed).map(|value| value.show(&program).to_string());
-            (name.clone(), value.unwrap_or_else(|fault| format!("{fault:?}")))
-        };
-        self.terms.iter().map(value).collect()
     }
 }
 
@@ -280,11 +239,13 @@ fn lock_step(ground: &Loaded, verified: &Loaded, kept: &[String]) {
     let mut seen: BTreeMap<String, std::collections::BTreeSet<String>> = BTreeMap::new();
     for seed in testkit::sample::seeds(3, 30) {
         let mut inputs = Inputs { seed, step: 0 };
-        let mut first = Run::new(ground, kept, &mut inputs);
-        let mut second = Run::new(verified, kept, &mut inputs);
+        let mut first = AskedRun::new(ground, kept, &mut inputs);
+        let mut second = AskedRun::new(verified, kept, &mut inputs);
         for step in 0..400 {
             inputs.step = step + 1;
-            let (one, other) = (first.step(&mut inputs), second.step(&mut inputs));
+            first.step(&mut inputs);
+            second.step(&mut inputs);
+            let (one, other) = (first.values(), second.values());
             assert_eq!(one, other, "seed {seed}, step {step}");
             one.into_iter().for_each(|(name, value)| _ = seen.entry(name).or_default().insert(value));
         }

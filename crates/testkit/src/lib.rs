@@ -19,7 +19,7 @@ pub mod sample;
 pub mod schema;
 pub mod solver;
 
-pub use loader::{Disk, EditedDisk, NoFiles, Patterns, Texts};
+pub use loader::{Disk, EditedDisk, NoFiles, Patterns, Texts, WithPatterns};
 pub use page::Page;
 pub use random::Random;
 pub use solver::NoSolver;

@@ -101,6 +101,19 @@ impl Loader for Patterns {
     }
 }
 
+/// Files in memory, and the pattern library for paths that begin with `patterns/`.
+#[derive(Debug, Clone, Default)]
+pub struct WithPatterns(pub Texts);
+
+impl Loader for WithPatterns {
+    fn load(&mut self, importer: &SourceFile, path: &str) -> Result<SourceFile, String> {
+        if importer.name.starts_with("patterns/") || path.starts_with("patterns/") {
+            return Patterns.load(importer, path);
+        }
+        self.0.load(importer, path)
+    }
+}
+
 /// The path of an import with its ending: `.asm` if none is written.
 fn named(path: &str) -> String {
     let path = path.replace('\\', "/");
