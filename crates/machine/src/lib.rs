@@ -8,9 +8,11 @@
 mod alternatives;
 mod branching;
 mod builtin;
+mod compiled;
 mod contain;
 mod coverage;
 mod elsewhere;
+mod engine;
 mod enumerate;
 mod environment;
 mod evaluate;
@@ -45,12 +47,13 @@ mod work;
 
 pub use alternatives::{Alternatives, Bounds};
 pub use coverage::Coverage;
+pub use engine::EngineChoice;
 pub use environment::{Choice, Closed, Draw, Environment, TimeUnit};
 pub use fault::{ClashSide, Fault, FaultClass, FaultKind};
 pub use interrupt::{Cause, Interrupt};
 pub use limits::Limits;
 pub use location::{Location, LocationRef};
-pub use machine::{Change, EngineChoice, Machine, Snapshot};
+pub use machine::{Change, Machine, Snapshot};
 pub use mark::Mark;
 pub use observe::{Observation, Truths, conditions_of};
 pub use piece::{Edit, Piece};

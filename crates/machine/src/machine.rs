@@ -6,15 +6,15 @@ use program::{DomainId, Expression, FunctionId, FunctionKind, ProcedureId, Progr
 use syntax::Span;
 
 use crate::coverage::Coverage;
+use crate::engine::EngineState;
 use crate::environment::{Closed, Environment};
 use crate::execute::{Core, Executor, Outcome};
 use crate::fault::{Fault, FaultKind};
 use crate::interrupt::Interrupt;
 use crate::limits::Limits;
 use crate::location::{Location, LocationRef};
-use crate::native::{self, Ended, Engine, SharedCode};
 use crate::start::AT_START;
-use crate::step::{Passed, Step};
+use crate::step::Step;
 use crate::store::Store;
 use crate::value::Value;
 use crate::work::Work;
@@ -41,69 +41,18 @@ pub struct Snapshot {
     epoch: u32,
 }
 
-/// What makes the steps. Both give the same steps and the same faults.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub enum EngineChoice {
-    /// Interpreted at first, compiled once the run has become long enough to pay for it.
-    #[default]
-    Automatic,
-    /// The program is walked over.
-    Interpreted,
-    /// Machine code from the first step on, where there is any for this processor.
-    Compiled,
-}
-
-/// LIMIT: steps made, and an eighth of their updates, before the main rule is compiled.
-const COMPILED_AFTER: u64 = 256;
-/// LIMIT: the same of another procedure, most of which make few steps.
-const OTHERS_COMPILED_AFTER: u64 = 1 << 16;
-
-/// The compiled engine, as far as it has come.
-#[derive(Debug, Default)]
-struct EngineState {
-    choice: EngineChoice,
-    /// One a procedure that has made steps, in the order in which they came up.
-    codes: Vec<Code>,
-    /// The one that makes the present step.
-    running: usize,
-}
-
-/// A procedure that makes steps.
-#[derive(Debug)]
-struct Code {
-    procedure: ProcedureId,
-    /// Steps made, and an eighth of their updates.
-    work: u64,
-    tried: bool,
-    engine: Option<Box<Engine>>,
-}
-
-impl EngineState {
-    /// From now on this procedure makes the step.
-    fn run(&mut self, procedure: ProcedureId) -> &mut Code {
-        if self.codes.get(self.running).is_none_or(|code| code.procedure != procedure) {
-            let known = self.codes.iter().position(|code| code.procedure == procedure);
-            self.running = known.unwrap_or(self.codes.len());
-            if known.is_none() {
-                self.codes.push(Code { procedure, work: 0, tried: false, engine: None });
-            }
-        }
-        &mut self.codes[self.running]
-    }
-}
-
 /// A machine: a program and its current state.
 #[derive(Debug)]
 pub struct Machine {
-    program: Arc<Program>,
-    limits: Limits,
+    pub(crate) program: Arc<Program>,
+    pub(crate) limits: Limits,
     pub(crate) core: Core,
-    steps: u64,
+    pub(crate) steps: u64,
     /// The update set on the stack is committed: where an update changed anything it holds the value before.
-    settled: bool,
-    engine: EngineState,
+    pub(crate) settled: bool,
+    pub(crate) engine: EngineState,
     /// A step was committed since inputs were last forgotten.
-    stale: bool,
+    pub(crate) stale: bool,
 }
 
 impl Machine {
@@ -217,7 +166,7 @@ impl Machine {
     }
 
     /// Computes the update set of a step that has begun by walking over the program.
-    fn interpret(&mut self, procedure: ProcedureId, environment: &mut dyn Environment) -> Result<(), Fault> {
+    pub(crate) fn interpret(&mut self, procedure: ProcedureId, environment: &mut dyn Environment) -> Result<(), Fault> {
         let outcome = self.execute(environment, |executor, program| {
             let span = program.procedure(procedure).span;
             executor.enter(procedure, 0, span)
@@ -226,98 +175,6 @@ impl Machine {
             self.discard();
         }
         outcome
-    }
-
-    /// Makes steps of the main rule one after the other, until as many are made as are `wanted` in all, a domain has
-    /// grown, or there was nothing to update. After each the environment is told ([`Environment::step_made`]); else
-    /// nobody looks at the states between them, which makes these steps the fastest.
-    ///
-    /// # Errors
-    /// A fault leaves the state as it was after the steps that were counted.
-    pub fn pass(&mut self, wanted: u64, environment: &mut dyn Environment, passed: &mut Passed) -> Result<(), Fault> {
-        while passed.steps < wanted {
-            let main = self.program.main;
-            let step = match main.filter(|main| self.has_code(*main)) {
-                None => self.step(environment)?,
-                Some(main) => match self.passes_compiled(wanted, environment, passed) {
-                    Ended::Enough | Ended::Paused => return Ok(()),
-                    Ended::Abandoned => {
-                        self.interpret(main, environment)?;
-                        self.commit()
-                    }
-                },
-            };
-            passed.count(step);
-            environment.step_made();
-            if step.grown || step.updates == 0 {
-                break;
-            }
-        }
-        Ok(())
-    }
-
-    /// Which engine makes the steps; [`EngineChoice::Automatic`] if nobody says.
-    pub fn use_engine(&mut self, choice: EngineChoice) {
-        self.engine = EngineState { choice, ..EngineState::default() };
-    }
-
-    /// Whether there is compiled code for a procedure, compiling it when that is due.
-    fn has_code(&mut self, procedure: ProcedureId) -> bool {
-        if std::mem::take(&mut self.core.disturbed) {
-            self.look_again();
-        }
-        let choice = self.engine.choice;
-        let Code { work, tried, engine, .. } = self.engine.run(procedure);
-        let is_main = self.program.main == Some(procedure);
-        let due = match choice {
-            EngineChoice::Interpreted => false,
-            EngineChoice::Compiled if is_main => true,
-            _ if is_main => *work > COMPILED_AFTER,
-            _ => *work > OTHERS_COMPILED_AFTER,
-        };
-        if !due || self.core.coverage.is_some() {
-            return false;
-        }
-        if !*tried {
-            *tried = true;
-            let code = native::Code::compile(&self.program, procedure, &self.core, false);
-            *engine = code.map(|code| Box::new(Engine::new(Arc::new(code))));
-        }
-        if choice == EngineChoice::Automatic && engine.as_ref().is_some_and(|engine| !engine.pays()) {
-            *engine = None;
-        }
-        engine.is_some()
-    }
-
-    /// Throws code away that takes a function for a constant which has other values now. The next code relies on it no more.
-    fn look_again(&mut self) {
-        for code in &mut self.engine.codes {
-            let changed = code.engine.as_ref().map(|engine| engine.code().unsettled(&self.core)).unwrap_or_default();
-            if !changed.is_empty() {
-                self.core.elsewhere.add_varying(&changed);
-                (code.tried, code.engine) = (false, None);
-            }
-        }
-    }
-
-    /// Compiles the main rule now, to code that notes which rules run, unless another machine has done so; whether there is
-    /// such code.
-    pub(crate) fn compile_main(&mut self, shared: &SharedCode) -> bool {
-        let Some(main) = self.program.main else { return false };
-        let compile = || native::Code::compile(&self.program, main, &self.core, true).map(Arc::new);
-        let engine = match shared.get_or_compile(compile) {
-            Some(code) if code.fits(&self.program, main, &self.core) => Some(code),
-            Some(_) => compile(),
-            None => None,
-        };
-        let code = self.engine.run(main);
-        (code.tried, code.engine) = (true, engine.map(|code| Box::new(Engine::new(code))));
-        code.engine.is_some()
-    }
-
-    /// The code of the main rule, if it was compiled.
-    pub(crate) fn main_engine(&self) -> Option<&Engine> {
-        self.engine.codes.iter().find(|code| Some(code.procedure) == self.program.main)?.engine.as_deref()
     }
 
     /// Forgets the inputs of a step that was committed, and begins the next one.
@@ -330,39 +187,8 @@ impl Machine {
         self.core.begin_step();
     }
 
-    /// Computes the update set of a step that has begun by compiled code; false where it is to be interpreted.
-    pub(crate) fn runs_compiled(&mut self, environment: &mut dyn Environment) -> bool {
-        let Machine { program, core, limits, engine, .. } = self;
-        let Some(engine) = &mut engine.codes[engine.running].engine else { return false };
-        core.clear_calls();
-        let mut executor = Executor { program, core, environment, limits };
-        let computed = engine.run(&mut executor);
-        if !computed {
-            self.repeat();
-        }
-        computed
-    }
-
-    /// Makes steps by compiled code. One that is abandoned has begun, and is to be interpreted.
-    fn passes_compiled(&mut self, wanted: u64, environment: &mut dyn Environment, passed: &mut Passed) -> Ended {
-        self.discard();
-        let Machine { program, core, limits, engine, .. } = self;
-        let Some(engine) = &mut engine.codes[engine.running].engine else { return Ended::Enough };
-        core.clear_calls();
-        let before = passed.steps;
-        let mut executor = Executor { program, core, environment, limits };
-        let ended = engine.pass(&mut executor, self.stale, wanted, passed);
-        self.steps += passed.steps - before;
-        (self.settled, self.stale) = (true, true);
-        if let Ended::Abandoned = ended {
-            (self.settled, self.stale) = (false, false);
-            self.repeat();
-        }
-        ended
-    }
-
     /// Starts an abandoned step again: it will make the same choices.
-    fn repeat(&mut self) {
+    pub(crate) fn repeat(&mut self) {
         self.discard();
         self.core.iterations = 0;
         self.core.choices.repeat();
@@ -376,9 +202,7 @@ impl Machine {
         self.settled = true;
         self.stale = true;
         self.steps += 1;
-        if let Some(code) = self.engine.codes.get_mut(self.engine.running) {
-            code.work += 1 + step.updates as u64 / 8;
-        }
+        self.engine.count(step);
         step
     }
 
@@ -466,7 +290,7 @@ impl Machine {
         if value.is_undef() && !self.core.unset && matches!(kind, FunctionKind::Controlled | FunctionKind::Out) {
             // Compiled code relies on locations that the program itself never sets to undef.
             self.core.unset = true;
-            self.use_engine(self.engine.choice);
+            self.drop_code();
         }
         self.execute(&mut Closed, |executor, program| {
             if !executor.is_member(*function, &value) {

@@ -2,12 +2,12 @@
 //!
 //! In: a machine after a step, or before its commit for those that read inputs. Out: violations. An invariant over the
 //! state alone is evaluated only if a step has changed a function that it reads, or a domain has grown: otherwise its
-//! value stays the same. INVARIANT: the verdicts are those of evaluating all of them every time.
+//! value stays the same. In a long run compiled code is asked first whether it holds. INVARIANT: the verdicts are those of evaluating all of them every time.
 
 use std::sync::Arc;
 
 use machine::{Fault, Machine, Value};
-use program::{Program, PropertyKind};
+use program::{Expression, Program, PropertyKind};
 
 use crate::inputs::Inputs;
 use crate::trace::Violation;
@@ -48,6 +48,11 @@ impl Watch {
             watch.over_states.push(Watched { property, always: reads.is_none(), known: None });
         }
         watch
+    }
+
+    /// The conditions for the machine to watch, in the order of `over_states`.
+    pub fn conditions(&self, program: &Program) -> Arc<[Expression]> {
+        self.over_states.iter().map(|watched| program.properties[watched.property].formula.clone()).collect()
     }
 
     /// Whether there is nothing to evaluate.
@@ -112,9 +117,10 @@ impl Watch {
         }
         let found = violations.len();
         let program = Arc::clone(machine.program());
-        for Watched { property, always, known } in &mut self.over_states {
+        for (number, Watched { property, always, known }) in self.over_states.iter_mut().enumerate() {
             let value = match known.take() {
                 Some(value) => value,
+                None if !*always && machine.surely_holds(number) => Value::Boolean(true),
                 None => match machine.evaluate(&program.properties[*property].formula, inputs) {
                     Ok(value) => value,
                     Err(fault) => {

@@ -93,6 +93,7 @@ impl Run {
         inputs.keep = options.keep;
         let mut machine = Machine::new(program, limits);
         machine.use_engine(options.engine);
+        machine.watch_conditions(watch.conditions(machine.program()));
         let (history, phase) = (VecDeque::new(), Phase::New);
         Run { machine, inputs, options, watch, history, made: 0, phase }
     }

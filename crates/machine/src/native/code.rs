@@ -1,4 +1,4 @@
-//! The machine code of a procedure that makes steps.
+//! The machine code of a procedure that makes steps, or of conditions on states.
 //!
 //! In: a program and a started machine. Out: code for every machine of that program that agrees in the [`Facts`] the code
 //! relies on. INVARIANT: the code does not change, and what it changes belongs to the machine that runs it; only the
@@ -7,12 +7,12 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU8, Ordering};
 
-use cranelift_codegen::ir::{InstBuilder, UserFuncName, types};
+use cranelift_codegen::ir::{UserFuncName, types};
 use cranelift_codegen::settings::{self, Configurable};
 use cranelift_frontend::{FunctionBuilder, FunctionBuilderContext};
 use cranelift_jit::{JITBuilder, JITModule};
 use cranelift_module::{FuncId, Linkage, Module, default_libcall_names};
-use program::{FunctionId, ProcedureId, Program, RuleId};
+use program::{Expression, FunctionId, ProcedureId, Program, RuleId};
 
 use crate::execute::Core;
 use crate::native::context::Context;
@@ -24,15 +24,26 @@ use crate::native::translate::Translator;
 use crate::native::unit;
 use crate::weighed::Items;
 
-/// The compiled entry: the context, to a status that is not zero where the step is abandoned.
-type Entry = unsafe extern "C" fn(*mut Context) -> i64;
+/// A compiled entry: the context, to a status. It is zero where the step has been computed, or the condition is true, and not where
+/// the step is abandoned, or it is not known whether the condition is true.
+pub(super) type Entry = unsafe extern "C" fn(*mut Context) -> i64;
+
+/// What is compiled.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Subject {
+    /// A procedure that makes steps.
+    Steps(ProcedureId),
+    /// Conditions on states, each with an entry of its own.
+    Conditions(Arc<[Expression]>),
+}
 
 /// See the module.
 pub(crate) struct Code {
     program: Arc<Program>,
-    procedure: ProcedureId,
+    subject: Subject,
     facts: Facts,
-    pub(super) entry: Entry,
+    /// One for a procedure; for conditions one each, none where a condition asks somebody.
+    pub(super) entries: Box<[Option<Entry>]>,
     /// Where `self` is kept.
     pub(super) myself: Option<u32>,
     pub(super) numbered: Arc<Numbered>,
@@ -45,7 +56,7 @@ pub(crate) struct Code {
 
 impl std::fmt::Debug for Code {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Code").field("procedure", &self.procedure).finish_non_exhaustive()
+        f.debug_struct("Code").field("subject", &self.subject).finish_non_exhaustive()
     }
 }
 
@@ -68,9 +79,9 @@ impl Drop for Owner {
 }
 
 impl Code {
-    /// Compiles a procedure for a started machine; none on a processor that Cranelift has no code for. The code notes which
-    /// rules run if that is wanted.
-    pub fn compile(program: &Arc<Program>, procedure: ProcedureId, core: &Core, notes_rules: bool) -> Option<Code> {
+    /// Compiles for a started machine; none on a processor that Cranelift has no code for. The code notes which rules run if that
+    /// is wanted.
+    pub fn compile(program: &Arc<Program>, subject: Subject, core: &Core, notes_rules: bool) -> Option<Code> {
         let mut flags = settings::builder();
         flags.set("opt_level", "speed").ok()?;
         flags.set("is_pic", "false").ok()?;
@@ -80,29 +91,50 @@ impl Code {
         Helpers::register(&mut builder);
         let mut module = JITModule::new(builder);
         let helpers = Helpers::declare(&mut module)?;
-        let mut plan = Plan::new(program, procedure, core, helpers);
+        let main = if let Subject::Steps(procedure) = &subject { Some(*procedure) } else { None };
+        let mut plan = Plan::new(program, main, core, helpers);
         if notes_rules {
             plan.note_rules(program);
         }
 
-        let entry = signature(&module, &[types::I64], &[types::I64]);
-        let entry = module.declare_function("entry", Linkage::Local, &entry).ok()?;
+        let bodies: Vec<Option<Body<'_>>> = match &subject {
+            Subject::Steps(procedure) => vec![Some(Body::Steps(*procedure))],
+            Subject::Conditions(conditions) => conditions
+                .iter()
+                .map(|condition| plan.is_silent(program, condition.body).then_some(Body::Condition(condition)))
+                .collect(),
+        };
         let mut scratch = FunctionBuilderContext::new();
-        define(program, &mut module, &mut plan, &mut scratch, None, procedure, entry)?;
+        let mut entries = Vec::new();
+        for (number, body) in bodies.into_iter().enumerate() {
+            entries.push(match body {
+                Some(body) => {
+                    let signature = signature(&module, &[types::I64], &[types::I64]);
+                    let name = format!("entry{number}");
+                    let id = module.declare_function(&name, Linkage::Local, &signature).ok()?;
+                    define(program, &mut module, &mut plan, &mut scratch, body, id)?;
+                    Some(id)
+                }
+                None => None,
+            });
+        }
         while let Some((key, id)) = plan.queue.pop() {
-            define(program, &mut module, &mut plan, &mut scratch, Some(key), procedure, id)?;
+            define(program, &mut module, &mut plan, &mut scratch, Body::Unit(key), id)?;
         }
         module.finalize_definitions().ok()?;
-        let code = module.get_finalized_function(entry);
-        // SAFETY: the code was just defined with this signature.
-        let entry = unsafe { std::mem::transmute::<*const u8, Entry>(code) };
+        let entry_of = |id: FuncId| {
+            let code = module.get_finalized_function(id);
+            // SAFETY: the code was just defined with this signature.
+            unsafe { std::mem::transmute::<*const u8, Entry>(code) }
+        };
+        let entries = entries.into_iter().map(|id| id.map(entry_of)).collect();
         let myself = plan.self_location(program);
         let Plan { facts, numbered, pinned, ran, .. } = plan;
         Some(Code {
             program: Arc::clone(program),
-            procedure,
+            subject,
             facts,
-            entry,
+            entries,
             myself,
             numbered: Arc::new(numbered),
             ran,
@@ -111,10 +143,10 @@ impl Code {
         })
     }
 
-    /// Whether a started machine may run the code as this procedure. Its program may have more terms, for conditions.
-    pub fn fits(&self, program: &Arc<Program>, procedure: ProcedureId, core: &Core) -> bool {
+    /// Whether a started machine may run the code as this. Its program may have more terms, for conditions.
+    pub fn fits(&self, program: &Arc<Program>, subject: &Subject, core: &Core) -> bool {
         let same = Arc::ptr_eq(&self.program, program) || program.extends(&self.program);
-        same && self.procedure == procedure && self.facts == Facts::of(program, core)
+        same && self.subject == *subject && self.facts == Facts::of(program, core)
     }
 
     /// The functions that the code takes for constants and that have other values in a machine now.
@@ -128,20 +160,30 @@ impl Code {
     }
 }
 
-/// Builds one function: the entry, or a unit.
+/// What one compiled function does.
+#[derive(Debug, Clone, Copy)]
+enum Body<'c> {
+    /// An entry: makes a step.
+    Steps(ProcedureId),
+    /// An entry: decides a condition.
+    Condition(&'c Expression),
+    /// What entries call.
+    Unit(UnitKey),
+}
+
+/// Builds one function.
 fn define(
     program: &Program,
     module: &mut JITModule,
     plan: &mut Plan,
     scratch: &mut FunctionBuilderContext,
-    key: Option<UnitKey>,
-    main: ProcedureId,
+    body: Body<'_>,
     id: FuncId,
 ) -> Option<()> {
     let mut code = module.make_context();
-    code.func.signature = match key {
-        Some(key) => unit::unit_signature(program, module, key),
-        None => signature(module, &[types::I64], &[types::I64]),
+    code.func.signature = match body {
+        Body::Unit(key) => unit::unit_signature(program, module, key),
+        Body::Steps(_) | Body::Condition(_) => signature(module, &[types::I64], &[types::I64]),
     };
     code.func.name = UserFuncName::user(0, id.as_u32());
     {
@@ -151,16 +193,10 @@ fn define(
         builder.switch_to_block(start);
         let parameters = builder.block_params(start).to_vec();
         let mut translator = Translator::new(builder, module, plan, program, parameters[0]);
-        match key {
-            Some(key) => translator.unit(key, &parameters[1..]),
-            None => {
-                translator.main(main);
-                let good = translator.word(0);
-                translator.builder.ins().return_(&[good]);
-                translator.switch(translator.bail);
-                let bad = translator.word(1);
-                translator.builder.ins().return_(&[bad]);
-            }
+        match body {
+            Body::Unit(key) => translator.unit(key, &parameters[1..]),
+            Body::Steps(main) => translator.main(main),
+            Body::Condition(condition) => translator.condition(condition),
         }
         translator.builder.seal_all_blocks();
         translator.builder.finalize();

@@ -35,7 +35,7 @@ use std::sync::{Arc, OnceLock};
 
 use crate::execute::Executor;
 use crate::step::Passed;
-pub(crate) use code::Code;
+pub(crate) use code::{Code, Subject};
 pub(crate) use commit::apply;
 use context::Context;
 use memory::Memory;
@@ -85,6 +85,29 @@ impl Engine {
         &self.code
     }
 
+    /// Whether a condition is surely true in the present state, outside a step or before its commit. Where it is not, nothing is known.
+    pub fn surely_holds(&mut self, condition: usize, executor: &mut Executor<'_>) -> bool {
+        let Some(entry) = self.code.entries[condition] else { return false };
+        // SAFETY: the memory outlives the context, and nothing else uses it.
+        let mut context = unsafe { Context::new(&raw mut self.memory) };
+        context.look(executor.core);
+        context.begin(executor);
+        let held = context.held;
+        // SAFETY: as in `compute`.
+        let status = unsafe { entry(&raw mut context) };
+        debug_assert_eq!(context.held, held, "a condition updates nothing");
+        context.enter(executor.core);
+        self.clear(&mut context);
+        status == 0
+    }
+
+    /// Forgets what an entry left that gave up.
+    fn clear(&mut self, context: &mut Context) {
+        context.release(0);
+        context.drop_candidates();
+        self.memory.clear();
+    }
+
     /// Whether running the code has paid so far.
     pub fn pays(&self) -> bool {
         self.runs < TRIAL || self.abandoned * 8 < self.runs
@@ -128,20 +151,19 @@ impl Engine {
 
     #[inline]
     fn compute(&mut self, context: &mut Context, executor: &mut Executor<'_>) -> bool {
+        let Some(entry) = self.code.entries[0] else { return false };
         self.runs += 1;
         let former = self.code.myself.map(|index| executor.core.store.values[index as usize].clone());
         // SAFETY: the context refers to the executor and the memory, which outlive this call; while the code runs
         // nothing else uses them. The code was compiled for this program and this layout of the store.
-        let status = unsafe { (self.code.entry)(&raw mut *context) };
+        let status = unsafe { entry(&raw mut *context) };
         context.enter(executor.core);
         if status == 0 {
             debug_assert!(context.temporary == 0 && context.candidate == 0);
             return true;
         }
-        context.release(0);
-        context.drop_candidates();
         self.abandoned += 1;
-        self.memory.clear();
+        self.clear(context);
         if let (Some(index), Some(value)) = (self.code.myself, former) {
             executor.core.store.values[index as usize] = value;
         }

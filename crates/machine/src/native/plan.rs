@@ -76,8 +76,8 @@ impl Facts {
 /// The knowledge of one compilation.
 #[derive(Debug)]
 pub(super) struct Plan {
-    /// The procedure that is compiled.
-    main: ProcedureId,
+    /// The procedure that makes the steps, if steps are compiled.
+    main: Option<ProcedureId>,
     pub helpers: Helpers,
     pub constants: Arc<Items>,
     pub facts: Facts,
@@ -101,7 +101,7 @@ pub(super) struct Plan {
 
 impl Plan {
     /// Looks at a program and a started core.
-    pub fn new(program: &Program, main: ProcedureId, core: &Core, helpers: Helpers) -> Plan {
+    pub fn new(program: &Program, main: Option<ProcedureId>, core: &Core, helpers: Helpers) -> Plan {
         let mut procedure_calls = vec![0; program.procedures.len()];
         let mut definition_calls = vec![0; program.functions.len()];
         for rule in &program.rules {
@@ -303,7 +303,7 @@ impl Plan {
     /// Whether a rule of the compiled procedure's own body is the only one that updates a function, and runs once a step.
     pub fn is_only_update(&self, program: &Program, function: FunctionId, id: RuleId) -> bool {
         // Called by another it would run once more.
-        let once = self.procedure_calls[self.main.0 as usize] == 0;
+        let once = self.main.is_some_and(|main| self.procedure_calls[main.0 as usize] == 0);
         let only = program.rules.iter().enumerate().all(|(index, rule)| match rule {
             Rule::Update { function: updated, .. } | Rule::Return { function: updated, .. } => {
                 *updated != function || index == id.0 as usize

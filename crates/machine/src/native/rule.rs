@@ -3,7 +3,9 @@
 use cranelift_codegen::ir::condcodes::IntCC;
 use cranelift_codegen::ir::{InstBuilder, types};
 use model::Basic;
-use program::{Binder, BinderList, DomainKind, FunctionId, ProcedureId, Rule, RuleId, Slot, Term, TermId, TermList};
+use program::{
+    Binder, BinderList, DomainKind, Expression, FunctionId, ProcedureId, Rule, RuleId, Slot, Term, TermId, TermList,
+};
 
 use crate::native::context::Offset;
 use crate::native::helper;
@@ -252,17 +254,37 @@ impl Translator<'_, '_> {
         self.call_or_bail(helper::PERFORM, [self.context, rule, spill, values]);
     }
 
-    /// The procedure that makes the step.
+    /// The whole of an entry: the procedure that makes the step.
     pub fn main(&mut self, main: ProcedureId) {
         self.foralls = Some(Vec::new());
         self.sole = true;
         self.frames.push(Frame {
-            unit: UnitKey::Procedure(main),
+            unit: Some(UnitKey::Procedure(main)),
             size: self.program.procedure(main).frame,
             slots: Vec::new(),
         });
         self.rule(self.program.procedure(main).body);
         self.frames.pop();
+        self.end_entry();
+    }
+
+    /// The whole of an entry: whether a condition is true.
+    pub fn condition(&mut self, condition: &Expression) {
+        self.frames.push(Frame { unit: None, size: condition.frame, slots: Vec::new() });
+        let (holds, unknown) = (self.block(), self.bail);
+        self.guard_statement(condition.body, holds, unknown);
+        self.switch(holds);
+        self.frames.pop();
+        self.end_entry();
+    }
+
+    /// Returns from an entry: 0 here, and 1 where the step is given up.
+    fn end_entry(&mut self) {
+        let good = self.word(0);
+        self.builder.ins().return_(&[good]);
+        self.switch(self.bail);
+        let bad = self.word(1);
+        self.builder.ins().return_(&[bad]);
     }
 
     // ---- calls
@@ -275,7 +297,7 @@ impl Translator<'_, '_> {
         }
         let declared = self.program.procedure(procedure);
         let slots: Vec<Bound> = operands.iter().map(|operand| self.bound(*operand)).collect();
-        self.frames.push(Frame { unit: key, size: declared.frame, slots });
+        self.frames.push(Frame { unit: Some(key), size: declared.frame, slots });
         self.rule(declared.body);
         self.frames.pop();
     }

@@ -385,7 +385,7 @@ impl Translator<'_, '_> {
             return self.call_definition(function, &operands, id);
         }
         let slots: Vec<Bound> = operands.into_iter().map(|operand| self.bound(operand)).collect();
-        self.frames.push(Frame { unit: key, size: definition.frame, slots });
+        self.frames.push(Frame { unit: Some(key), size: definition.frame, slots });
         let value = self.term(definition.body);
         self.frames.pop();
         value

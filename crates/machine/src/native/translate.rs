@@ -31,7 +31,8 @@ const COUNTERS: MemFlags = MemFlags::trusted().with_alias_region(Some(AliasRegio
 /// The variables of an inlined procedure or definition.
 #[derive(Debug)]
 pub(super) struct Frame {
-    pub unit: UnitKey,
+    /// None of a condition, which nothing calls.
+    pub unit: Option<UnitKey>,
     /// How many slots the interpreter's frame has.
     pub size: u32,
     pub slots: Vec<Bound>,

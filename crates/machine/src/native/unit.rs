@@ -52,7 +52,7 @@ pub(super) fn unit_signature(program: &Program, module: &JITModule, key: UnitKey
 impl Translator<'_, '_> {
     /// Whether a unit is translated where it is called.
     pub fn inlines(&self, key: UnitKey) -> bool {
-        !self.frames.iter().any(|frame| frame.unit == key)
+        !self.frames.iter().any(|frame| frame.unit == Some(key))
             && self.plan.is_small(self.program, key, self.weight, self.frames.len())
     }
 
@@ -82,7 +82,7 @@ impl Translator<'_, '_> {
         match key {
             UnitKey::Procedure(id) => {
                 let procedure = program.procedure(id);
-                self.frames.push(Frame { unit: key, size: procedure.frame, slots });
+                self.frames.push(Frame { unit: Some(key), size: procedure.frame, slots });
                 self.rule(procedure.body);
                 self.set_field(Offset::depth, depth);
                 let good = self.byte(0);
@@ -93,7 +93,7 @@ impl Translator<'_, '_> {
             }
             UnitKey::Definition(id) => {
                 let definition = program.function(id).definition.as_ref().expect("a unit has one");
-                self.frames.push(Frame { unit: key, size: definition.frame, slots });
+                self.frames.push(Frame { unit: Some(key), size: definition.frame, slots });
                 let mark = self.field(Offset::temporary);
                 let (items, gatherers) = (self.field(Offset::item), self.gatherers);
                 let operand = self.term(definition.body);

@@ -1,7 +1,7 @@
 //! States: initial values, inputs, domains that grow.
 
 use expect_test::expect;
-use machine::{EngineChoice, Location, Machine, Passed, Value};
+use machine::{Closed, EngineChoice, Location, Machine, Passed, Value};
 
 use crate::{Counting, check, machine_of};
 
@@ -432,4 +432,47 @@ fn a_location_that_is_only_written_needs_no_initial_value() {
             1: h(0)=5 h(2)=6 x=6
         "#]],
     );
+}
+
+/// Code that takes a function for a constant, and another for one that is never undef, is asked no more once that is not so.
+#[test]
+fn conditions_follow_what_is_set_from_outside() {
+    let mut machine = machine_of(
+        "signature:
+            controlled base: Integer
+            controlled sum: Integer
+        definitions:
+            invariant over base: base = 5
+            invariant over sum: sum >= 0
+            invariant over sum: isDef(sum)
+            main rule r_Main = sum := (sum + base) mod 7
+        default init s:
+            function base = 5
+            function sum = 0",
+    );
+    machine.use_engine(EngineChoice::Compiled);
+    let formulas: Vec<_> = machine.program().properties.iter().map(|property| property.formula.clone()).collect();
+    machine.watch_conditions(formulas.iter().cloned().collect());
+    machine.start(&mut Closed).expect("it starts");
+    let base = Location { function: machine.find_function("base", 0).expect("declared"), arguments: Vec::new() };
+    let sum = Location { function: machine.find_function("sum", 0).expect("declared"), arguments: Vec::new() };
+    let judge = |machine: &mut Machine, expected: [bool; 3]| {
+        for (number, formula) in formulas.iter().enumerate() {
+            let value = machine.evaluate(formula, &mut Closed);
+            assert_eq!(matches!(value, Ok(Value::Boolean(true))), expected[number], "{number}: {value:?}");
+            assert_eq!(machine.surely_holds(number), expected[number], "{number}");
+        }
+    };
+    judge(&mut machine, [true, true, true]);
+    machine.step(&mut Closed).expect("a step");
+    judge(&mut machine, [true, true, true]);
+    let before = machine.snapshot();
+    machine.set(&base, Value::Integer(6)).expect("an Integer");
+    judge(&mut machine, [false, true, true]);
+    machine.set(&sum, Value::Integer(-1)).expect("an Integer");
+    judge(&mut machine, [false, false, true]);
+    machine.restore(&before);
+    judge(&mut machine, [true, true, true]);
+    machine.set(&sum, Value::Undef).expect("undef is in each domain");
+    judge(&mut machine, [true, false, false]);
 }

@@ -29,6 +29,9 @@ pub struct Plan {
 pub struct Outcome {
     /// Steps committed.
     pub steps: u64,
+    /// How often an invariant was true, and how often compiled code knew it without the interpreter.
+    pub held: u64,
+    pub known: u64,
     /// How often each fault was come to.
     pub faults: BTreeMap<&'static str, u64>,
 }
@@ -70,6 +73,8 @@ pub fn run(model: &Model, program: Program, plan: Plan) -> Result<Outcome, Disag
         outcome: Outcome::default(),
     };
     pair.machine.use_engine(plan.engine);
+    let invariants = pair.program.properties.iter().filter(|property| property.kind == PropertyKind::Invariant);
+    pair.machine.watch_conditions(invariants.map(|property| property.formula.clone()).collect());
     let world = World::new(model, &mut pair.oracle, plan.seed);
     if !pair.together(
         "start",
@@ -263,7 +268,14 @@ impl Pair<'_> {
         let program = Arc::clone(&self.program);
         let expected = self.oracle.invariants(&mut of_oracle);
         let invariants = program.properties.iter().filter(|property| property.kind == PropertyKind::Invariant);
-        for (property, (name, expected)) in invariants.zip(expected) {
+        for (number, (property, (name, expected))) in invariants.zip(expected).enumerate() {
+            let surely = self.machine.surely_holds(number);
+            if surely && !matches!(expected, Ok(Value::Boolean(true)) | Err(Fault::Limit)) {
+                let detail = format!("{what}, {name}: compiled code says that it holds\noracle: {expected:?}");
+                return Err(Disagreement::new("compiled invariant", detail));
+            }
+            self.outcome.held += u64::from(matches!(expected, Ok(Value::Boolean(true))));
+            self.outcome.known += u64::from(surely);
             let actual = self.machine.evaluate(&property.formula, &mut Machines(&mut of_machine));
             let limited = matches!(expected, Err(Fault::Limit))
                 || matches!(&actual, Err(fault) if fault.kind.id() == "limit-reached");

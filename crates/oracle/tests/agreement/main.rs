@@ -41,6 +41,8 @@ struct Total {
     rejected: u64,
     agreed: u64,
     steps: u64,
+    held: u64,
+    known: u64,
     faults: BTreeMap<&'static str, u64>,
 }
 
@@ -48,6 +50,8 @@ impl Total {
     fn add(&mut self, outcome: Outcome) {
         self.agreed += 1;
         self.steps += outcome.steps;
+        self.held += outcome.held;
+        self.known += outcome.known;
         for (id, count) in outcome.faults {
             *self.faults.entry(id).or_default() += count;
         }
@@ -157,6 +161,7 @@ fn random_models() {
         "too many of the generated models are refused: {} of {cases}",
         total.rejected
     );
+    assert!(total.known * 4 > total.held, "compiled code knew only {} of {} invariants", total.known, total.held);
 }
 
 #[test]
