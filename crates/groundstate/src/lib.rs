@@ -49,7 +49,7 @@ pub use fault::review::{REVIEW_IDS, diagnose_finding};
 pub use fault::run::{diagnose_fault, diagnose_no_main, diagnose_record, diagnose_violation};
 pub use fault::scenario::{diagnose_failure, diagnose_remark};
 pub use fault::verification::{
-    diagnose_outside, diagnose_property, diagnose_unbounded, diagnose_unreachable, short_place,
+    diagnose_idle, diagnose_outside, diagnose_property, diagnose_unbounded, diagnose_unreachable, short_place,
 };
 pub use fingerprint::{fingerprint, text_fingerprint};
 pub use kind::{Kind, chart_of, has_ending, model_of};

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use groundstate::scenario::{FirstCandidate, Options as Scenario};
 use groundstate::verify::solver::Method;
+use groundstate::verify::vacuity::Question;
 use groundstate::verify::{EngineKind, NoStart, Options, Outcome, Reason, Report, Subject, verify};
 use groundstate::{Suite, counterexample_scenario};
 use program::{FunctionId, FunctionKind, Program};
@@ -108,6 +109,14 @@ fn the_pages_of_faults_show_them() {
     let (_, report) = check(unreachable.example("asmetal verify"), 1);
     assert_eq!(report.unreachable.len(), 1);
     assert_eq!(groundstate::diagnose_unreachable(report.unreachable[0]).id, "unreachable-rule");
+    let idle = Page::fault("idle-part");
+    let (program, report) = check(idle.example("asmetal verify"), 1);
+    assert_eq!(report.verdicts.last().map(|verdict| &verdict.outcome), Some(&Outcome::Holds));
+    let question = Question::new(&program, &[0]);
+    let asked = verify(&Arc::new(question.program.clone()), &Options::default(), &mut |_| true);
+    let found = question.idle(&asked.expect("it starts")).parts;
+    assert_eq!(found.len(), 1);
+    assert_eq!(groundstate::diagnose_idle(&found[0], &program).id, "idle-part");
     let no_bound = Page::fault("no-bound");
     let text = no_bound.example("asmetal verify");
     let (program, report) = check(text, 1);

@@ -14,5 +14,5 @@ pub use builtin::{Builtin, BuiltinInfo, Cpp, Effect, Kind, LooksThrough, Operand
 pub use dump::dump;
 pub use ir::*;
 pub use lower::{IDS, lower, lower_location, lower_rule, lower_term};
-pub use model::{CollectionKind, DomainId, FunctionId, FunctionKind, Literal, PropertyKind, Quantifier};
+pub use model::{Basic, CollectionKind, DomainId, FunctionId, FunctionKind, Literal, PropertyKind, Quantifier};
 pub use verify::verify;

@@ -32,6 +32,7 @@ mod table;
 mod target;
 pub mod temporal;
 mod trace;
+pub mod vacuity;
 mod walk;
 
 pub use checkpoint::keeper::{Keeper, Refusal};

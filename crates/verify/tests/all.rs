@@ -19,3 +19,4 @@ mod storage;
 mod symbolic;
 mod symmetry;
 mod temporal;
+mod vacuity;

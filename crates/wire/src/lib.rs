@@ -44,7 +44,7 @@ pub use run::{RunFile, RunTold, Unseen};
 pub use session::{Named, Related, SESSION_VERSION, SessionState, Waiting, Written, Wrong, written_state};
 pub use times::{AgeOfData, MissedDeadlines, NewData, TaskTime, TimesTold};
 pub use trace::{Ending, Head, Line, Pairs, Reader, State, Step, VERSION, Wire};
-pub use verification::{Assumed, DomainLine, Explored, ExploredLine, RunChange, RunStep, Verdict};
+pub use verification::{Assumed, DomainLine, Explored, ExploredLine, RunChange, RunStep, Vacuity, Verdict};
 
 /// The version of the objects that commands write. A change that would mislead a reader raises it: a key or a type is
 /// removed or changes its meaning. New keys and types do not raise it.

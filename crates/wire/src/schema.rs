@@ -39,6 +39,7 @@ fn the_schema_of_the_output() {
             all.subschema_for::<Line>(),
             all.subschema_for::<Answer<'_>>(),
             all.subschema_for::<Assumed<'_>>(),
+            all.subschema_for::<Vacuity>(),
             all.subschema_for::<Conformance>(),
             all.subschema_for::<FollowedTold>(),
             all.subschema_for::<Coverage<'_>>(),

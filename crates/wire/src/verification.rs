@@ -255,6 +255,29 @@ impl DomainLine {
     }
 }
 
+/// `{"type":"vacuity",…}`
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub struct Vacuity {
+    #[cfg_attr(test, schemars(extend("const" = "vacuity")))]
+    r#type: &'static str,
+    /// How many properties that hold have parts that were replaced.
+    properties: usize,
+    /// How many parts were.
+    parts: usize,
+    /// How many of them are idle: a fault `idle-part` tells of each.
+    idle: usize,
+    /// Of how many it is not known.
+    open: usize,
+}
+
+impl Vacuity {
+    /// What a search for idle parts has found.
+    pub fn new(properties: usize, parts: usize, idle: usize, open: usize) -> Vacuity {
+        Vacuity { r#type: "vacuity", properties, parts, idle, open }
+    }
+}
+
 /// `{"type":"assumed",…}`
 #[derive(Debug, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]

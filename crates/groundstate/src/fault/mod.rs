@@ -21,6 +21,7 @@ pub const IDS: &[&str] = &[
     "check-failed",
     "expected-failure",
     "expected-term",
+    "idle-part",
     "invariant-violated",
     "limit-reached",
     "no-bound",

@@ -8,6 +8,7 @@ use program::{Program, Property, PropertyKind};
 use syntax::{Diagnostic, Sources, Span};
 use verify::Trace;
 use verify::solver::Outside;
+use verify::vacuity::Replaced;
 
 /// A part of the model that solvers do not support.
 pub fn diagnose_outside(outside: &Outside) -> Diagnostic {
@@ -21,6 +22,15 @@ pub fn diagnose_unreachable(rule: Span) -> Diagnostic {
     Diagnostic::warning("unreachable-rule", rule, "no reachable state runs this rule")
         .here("never runs")
         .with_help("if it should run, its guard or what leads to it is wrong; else remove it")
+}
+
+/// A part of a property that holds, without which it holds as well.
+pub fn diagnose_idle(replaced: &Replaced, program: &Program) -> Diagnostic {
+    let name = &program.properties[replaced.property].name;
+    let Replaced { part, by, .. } = *replaced;
+    Diagnostic::warning("idle-part", part, format!("{name} holds whatever stands here"))
+        .here(format!("with {by} in its place, too"))
+        .with_help("so it says nothing about this part: the model may never come to where it matters, or the property may be weaker than meant")
 }
 
 /// A property that a run violates.

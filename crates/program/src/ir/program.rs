@@ -228,6 +228,14 @@ impl Program {
             && self.result_function == other.result_function
     }
 
+    /// Adds a term, whose children are there.
+    pub fn add_term(&mut self, term: Term, domain: DomainId, span: Span) -> TermId {
+        self.terms.push(term);
+        self.term_domains.push(domain);
+        self.term_spans.push(span);
+        TermId(self.terms.len() as u32 - 1)
+    }
+
     /// The term of that id.
     pub fn term(&self, id: TermId) -> &Term {
         &self.terms[id.0 as usize]

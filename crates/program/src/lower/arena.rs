@@ -22,10 +22,7 @@ impl Lowering<'_, '_> {
     }
 
     fn push_term(&mut self, term: Term, domain: DomainId, span: Span) -> TermId {
-        self.program.terms.push(term);
-        self.program.term_domains.push(domain);
-        self.program.term_spans.push(span);
-        TermId(self.program.terms.len() as u32 - 1)
+        self.program.add_term(term, domain, span)
     }
 
     fn push_rule(&mut self, rule: Rule, span: Span) -> RuleId {

@@ -9,6 +9,7 @@ mod checkpoint;
 mod conflict;
 mod counterexample;
 mod disk;
+mod idle;
 mod live;
 mod operators;
 mod reduced;
@@ -107,6 +108,9 @@ pub struct Arguments {
     /// Also report unreachable rules in imported files
     #[arg(long)]
     imports: bool,
+    /// Then replace each part of the properties that hold, and report parts without which they hold as well
+    #[arg(long, conflicts_with_all = ["first", "checkpoint", "disk"])]
+    vacuity: bool,
     /// Write counterexamples: a scenario (FILE.avalla), a trace (FILE.trace), or both for each violation into a folder
     #[arg(long, value_name = "PATH")]
     counterexample: Option<PathBuf>,
@@ -186,6 +190,11 @@ const OPTIONS: [&str; 3] = ["--invariant", "--ctl", "--ltl"];
 /// Runs the command.
 pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     let is_chart = arguments.model.extension().is_some_and(|ending| ending == "chart");
+    if is_chart && arguments.vacuity {
+        return Err(Failure::usage(
+            "--vacuity is about the properties of a model: verify the machines of a chart's system one by one",
+        ));
+    }
     let rest = if is_chart { Some(without_proved(shell, arguments)?) } else { None };
     let arguments = rest.as_ref().unwrap_or(arguments);
     let system = match is_chart {
@@ -279,6 +288,7 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
         }
         None => (Vec::new(), watch),
     };
+    let again = arguments.vacuity.then(|| options.clone());
     let request = Request::of(&program, options).fair(agents).kept(arguments.checkpoint.is_some()).build();
     let request = request.map_err(conflict::conflict)?;
     let solver = Process::find(arguments.solver.as_deref());
@@ -329,6 +339,9 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
         .unreachable
         .retain(|span| system.is_none() && (span.file == root || (arguments.imports && users(span.file))));
     teller.report(shell, &report, &told)?;
+    if let Some(options) = again {
+        idle::tell(shell, arguments, &teller, &report, (options, agents))?;
+    }
     match (&arguments.counterexample, &system) {
         (Some(path), Some(system)) => system::write(shell, path, &arguments.model, system, &asked, &report)?,
         (Some(path), None) => {
