@@ -173,7 +173,7 @@ impl FaultKind {
 
 impl FaultKind {
     /// Whether the model is at fault, whatever the environment and the limits.
-    pub(crate) fn is_of_the_model(&self) -> bool {
+    pub fn is_of_the_model(&self) -> bool {
         !matches!(self, FaultKind::Limit { .. } | FaultKind::Interrupted(_) | FaultKind::Environment { .. })
     }
 }

@@ -100,9 +100,11 @@ fn step(machine: &mut Machine, settings: &Settings, told: &Told, ends: Option<Ta
                 match machine.evaluate(formula, &mut given) {
                     Ok(Value::Boolean(true)) => {}
                     Ok(_) if *assumed => return false,
-                    Ok(_) => violated |= ends == Some(Target::StepCondition(index)),
-                    // A condition that cannot be evaluated is a fault of the step.
-                    Err(fault) => return is_fault(&fault, ends) && same_inputs(machine),
+                    // An assumption that cannot be evaluated is a fault of the step.
+                    Err(fault) if *assumed || !fault.kind.is_of_the_model() => {
+                        return is_fault(&fault, ends) && same_inputs(machine);
+                    }
+                    Ok(_) | Err(_) => violated |= ends == Some(Target::StepCondition(index)),
                 }
             }
             if matches!(ends, Some(Target::StepCondition(_))) && !violated {

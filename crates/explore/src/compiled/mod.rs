@@ -168,8 +168,8 @@ impl Compiled {
             match self.machine.evaluate(formula, &mut self.branches) {
                 Ok(Value::Boolean(true)) => {}
                 Ok(_) if *assumed => return Step::Excluded,
-                Ok(_) => self.failed.push(*index),
-                Err(_) => return Step::Unknown,
+                Err(fault) if *assumed || !fault.kind.is_of_the_model() => return Step::Unknown,
+                Ok(_) | Err(_) => self.failed.push(*index),
             }
         }
         let Compiled { program, machine, encoding, view, codecs, next, touched, .. } = self;

@@ -370,8 +370,11 @@ impl Explorer {
             return Err(fault);
         }
         for (index, formula, _) in settings.checks_of_steps().skip_while(|(.., assumed)| *assumed) {
-            if machine.evaluate(formula, branches)? != Value::Boolean(true) {
-                attempt.failed.push(index);
+            match machine.evaluate(formula, branches) {
+                Ok(Value::Boolean(true)) => {}
+                // What cannot be evaluated is not true. The step is made all the same.
+                Err(fault) if !fault.kind.is_of_the_model() => return Err(fault),
+                Ok(_) | Err(_) => attempt.failed.push(index),
             }
         }
         Ok(())

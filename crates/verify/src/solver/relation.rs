@@ -143,22 +143,21 @@ impl Relation {
         let mut ruled_out = Terms::FALSE;
         let mut failures = Vec::new();
         for (index, (formula, assumed)) in settings.step_conditions.iter().enumerate() {
-            if *assumed {
-                let (truth, live) = encoder.condition(formula)?;
-                let not = encoder.terms.not(truth);
-                let fails = encoder.terms.and([live, not]);
-                ruled_out = encoder.terms.or([ruled_out, fails]);
+            let (alone, live) = encoder.condition(formula)?;
+            if !*assumed {
+                // One that has no value is not true, and no fault of the step.
+                failures.push((index, encoder.terms.not(alone)));
+                continue;
             }
+            let not = encoder.terms.not(alone);
+            let fails = encoder.terms.and([live, not]);
+            ruled_out = encoder.terms.or([ruled_out, fails]);
             let truth = encoder.closed_truth(formula)?;
             let course = encoder.course();
             let not = encoder.terms.not(truth);
             let fails = encoder.terms.and([course.path, course.live, not]);
-            if *assumed {
-                excluded = encoder.terms.or([excluded, fails]);
-                encoder.assume(truth);
-            } else {
-                failures.push((index, fails));
-            }
+            excluded = encoder.terms.or([excluded, fails]);
+            encoder.assume(truth);
         }
         let course = encoder.course();
         let included = encoder.terms.not(excluded);
@@ -167,7 +166,8 @@ impl Relation {
         let fault = |class: usize| (Target::Fault(class), encoder.terms.and([course.faults[class], counts]));
         let mut targets: Vec<(Target, Node)> = (0..3).map(fault).collect();
         for (index, fails) in failures.into_iter().filter(|(index, _)| plan.wanted_steps.contains(index)) {
-            targets.push((Target::StepCondition(index), encoder.terms.and([fails, included])));
+            let fails = encoder.terms.and([course.path, course.live, fails, included]);
+            targets.push((Target::StepCondition(index), fails));
         }
         let mut conditions = Vec::new();
         let mut beyond = Vec::new();

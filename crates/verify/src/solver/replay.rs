@@ -43,8 +43,11 @@ pub(crate) fn replay(
         let prepared = machine.prepare(&mut given);
         let mut failed = false;
         let outcome = prepared.and_then(|()| {
-            for (index, (formula, _)) in plan.settings.step_conditions.iter().enumerate() {
-                let holds = machine.evaluate(formula, &mut given)? == Value::Boolean(true);
+            for (index, (formula, assumed)) in plan.settings.step_conditions.iter().enumerate() {
+                let holds = match machine.evaluate(formula, &mut given) {
+                    Err(fault) if *assumed || !fault.kind.is_of_the_model() => return Err(fault),
+                    truth => truth == Ok(Value::Boolean(true)),
+                };
                 failed |= !holds && target == Target::StepCondition(index);
             }
             Ok(())

@@ -105,6 +105,53 @@ fn assumptions_that_no_initial_state_satisfies() {
     }
 }
 
+/// An invariant that cannot be evaluated, or is undef, is violated; the steps are made all the same, so that the others are judged by them. Each
+/// engine says so, whether the invariant reads an input or not.
+#[test]
+fn an_invariant_that_cannot_be_evaluated_hides_nothing() {
+    for ratio in ["go + idiv(1, cap) < 9", "idiv(1, cap) < 9", "(if cap = 0 then go > 9 endif)", "go + nothing < 9"] {
+        let program = model(&format!(
+            "domain Few subsetof Integer monitored go: Few controlled cap: Few controlled nothing: Few
+            controlled burning: Boolean definitions: domain Few = {{0 : 1}}
+            invariant inv_ratio over cap: {ratio}
+            invariant inv_fine over cap: go + cap < 2
+            invariant inv_safe over burning: not burning
+            main rule r_Main = burning := true
+            default init s0: function cap = 0 function burning = false"
+        ));
+        let check = |report: &Report, engine: &str| {
+            let words = words(&program, report);
+            let expected = [
+                ("Defined", "holds".to_string()),
+                ("inv_ratio", "violated".to_string()),
+                ("inv_fine", "holds".to_string()),
+                ("inv_safe", "violated in 1 steps".to_string()),
+            ];
+            for (name, word) in expected {
+                let found = words.iter().find(|(other, _)| other == name).expect("it is asked");
+                // A bounded search by a solver proves nothing.
+                let is_open = engine == "Bounded" && word == "holds" && !found.1.starts_with("violated");
+                let is_proved = word == "holds" && found.1.starts_with("holds");
+                let is_found = word.starts_with("violated") && found.1.starts_with("violated");
+                assert!(is_open || is_proved || is_found, "{engine}, {ratio}: {words:?}");
+                if name == "inv_safe" {
+                    assert!(found.1 == word, "{engine}, {ratio}: {words:?}");
+                }
+            }
+        };
+        for (engine, workers) in [(EngineKind::Explicit, 1), (EngineKind::Explicit, 2), (EngineKind::Symbolic, 1)] {
+            let options = Options { engine, workers, ..Options::default() };
+            let report = verify(&program, &options, &mut |_| true).expect("it begins");
+            check(&report, &format!("{engine:?}"));
+        }
+        for (method, name) in [(Method::Bounded, "Bounded"), (Method::Induction, "Induction")] {
+            for outcome in ask(&program, method, 4) {
+                check(&outcome.expect("it is told to the solver"), name);
+            }
+        }
+    }
+}
+
 #[test]
 fn inputs_without_a_bound() {
     let program = model(TANK);
