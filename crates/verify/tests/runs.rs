@@ -182,6 +182,29 @@ fn inputs_belong_to_the_state_as_far_as_a_formula_reads_them() {
     assert_eq!(words(&program, &unlimited()), expected);
 }
 
+/// What one formula reads is not in the states of another.
+#[test]
+fn no_formula_changes_the_verdict_of_another() {
+    let one = "CTLSPEC ctlSpec_can: not(lamp) implies ex(lamp)";
+    let others = [
+        "CTLSPEC ctlSpec_follows: ag(button implies ax(lamp))",
+        "LTLSPEC ltlSpec_before: g(lamp implies y(button))",
+        "CTLSPEC ctlSpec_on: af(lamp)",
+    ];
+    let asked = |formulas: &[&str]| {
+        let text = formulas.join("\n");
+        let program =
+            model(LAMP, &format!("{text}\nmain rule r_Main = lamp := button\ndefault init s0: function lamp = false"));
+        words(&program, &unlimited())
+    };
+    let alone: Vec<String> = [one].iter().chain(&others).flat_map(|formula| asked(&[formula])).collect();
+    assert_eq!(alone[0], "ctlSpec_can holds");
+    assert_eq!(asked(&[one, others[0], others[1], others[2]]), alone);
+    let mut turned = asked(&[others[2], others[1], others[0], one]);
+    turned.reverse();
+    assert_eq!(turned, alone);
+}
+
 #[test]
 fn assumptions_on_inputs_are_kept() {
     let program = model(

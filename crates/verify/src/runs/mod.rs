@@ -9,6 +9,7 @@
 //! is an endless run or only the beginning of a branching one, and why it is unknown depends on propositions and on
 //! runs. As targets, formulas would leave most of `Ended` empty here, and every other engine would have to refuse them.
 
+mod apart;
 mod close;
 mod numbered;
 pub(crate) mod outcome;
@@ -35,6 +36,7 @@ use crate::temporal::run::Run;
 use crate::temporal::{FormulaVerdict, decide_ctl, decide_ltl};
 use crate::trace::Trace;
 use crate::walk::Walk;
+use apart::{Group, groups};
 use states::{Explored, Place, Source, explore, has_letter};
 
 pub use outcome::{OfRuns, Why};
@@ -75,14 +77,43 @@ pub fn decide(
 pub(crate) fn decide_after(
     program: &Arc<Program>,
     plan: &RunPlan,
+    mut walk: Option<Walk>,
+    watch: &mut dyn FnMut(&Progress) -> bool,
+) -> Result<Vec<(usize, OfRuns)>, Trouble> {
+    let mut all = Vec::new();
+    let mut is_enough = false;
+    for Group { program, places, reads_inputs } in groups(program) {
+        // What was walked has no inputs in its states.
+        let walk = if reads_inputs { None } else { walk.take() };
+        let decided = match is_enough {
+            true => each_formula(&program, &Why::Unexplored(Some(Stop::Found))),
+            false => decide_together(&program, plan, walk, watch)?,
+        };
+        is_enough |= plan.first && decided.iter().any(|(_, answer)| matches!(answer, OfRuns::Violated(_)));
+        all.extend(decided.into_iter().map(|(index, answer)| (places[index], answer)));
+    }
+    all.sort_by_key(|(index, _)| *index);
+    Ok(all)
+}
+
+/// All formulas of a program as unknown.
+fn each_formula(program: &Program, why: &Why) -> Vec<(usize, OfRuns)> {
+    let formulas = program.properties.iter().enumerate().filter(|(_, property)| is_temporal(property.kind));
+    formulas.map(|(index, _)| (index, OfRuns::Unknown(why.clone()))).collect()
+}
+
+fn is_temporal(kind: program::PropertyKind) -> bool {
+    matches!(kind, program::PropertyKind::Ctl | program::PropertyKind::Ltl)
+}
+
+/// Decides the formulas of a program on one graph, in whose states the inputs are that any of them reads.
+fn decide_together(
+    program: &Arc<Program>,
+    plan: &RunPlan,
     walk: Option<Walk>,
     watch: &mut dyn FnMut(&Progress) -> bool,
 ) -> Result<Vec<(usize, OfRuns)>, Trouble> {
-    let temporal = |kind| matches!(kind, program::PropertyKind::Ctl | program::PropertyKind::Ltl);
-    let all = |why: Why| {
-        let formulas = program.properties.iter().enumerate().filter(|(_, property)| temporal(property.kind));
-        formulas.map(|(index, _)| (index, OfRuns::Unknown(why.clone()))).collect()
-    };
+    let all = |why: Why| each_formula(program, &why);
     if plan.agents.is_some() && scheduler(program).is_none() {
         return Ok(all(Why::NoScheduler));
     }
@@ -90,7 +121,7 @@ pub(crate) fn decide_after(
     let mut unread: BTreeMap<usize, String> = BTreeMap::new();
     for (index, fault) in faults {
         let what = format!("{}: {}", fault.message, fault.primary.text);
-        if !temporal(program.properties[index].kind) {
+        if !is_temporal(program.properties[index].kind) {
             return Ok(all(Why::Unread(what)));
         }
         unread.entry(index).or_insert(what);
