@@ -84,6 +84,12 @@ fn hook_class(text: &mut String, system: &System, component: &Component, form: &
         let _ = writeln!(text, "        std::optional<{value}>& {};", member(&device.name));
     }
     let _ = write!(text, "    }};\n    virtual ~{}() = default;\n", pascal(&component.name));
+    if !sensors.is_empty() {
+        text.push_str(
+            "    /// Before the sensors are asked, for those that are computed of what was read.\n    \
+             virtual void before_sensors(const Cycle& /*cycle*/, const In& /*in*/) {}\n",
+        );
+    }
     for (device, value) in &sensors {
         let called = hook(&device.name);
         let _ = write!(

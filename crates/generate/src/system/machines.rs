@@ -249,6 +249,9 @@ pub(super) fn elaboration(system: &System, index: usize, phase: usize, form: &Fo
     let (numbers, hooks) = (numbers(system), format!("hooks_.{}", member(name)));
     let mut text = String::new();
     let mut line = |words: String| _ = writeln!(text, "                {words}");
+    if machine.feeds.iter().any(|(_, feed)| matches!(feed, Feed::Sensor(_))) {
+        line(format!("{hooks}.before_sensors(cycle, {name}_in_);"));
+    }
     let mut places = places(system, index, form);
     let mut got = Vec::new();
     for (_, feed) in &machine.feeds {

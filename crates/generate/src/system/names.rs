@@ -34,7 +34,7 @@ pub(super) fn member(name: &str) -> String {
 /// The name of a hook: a member that must not clash with those of every hook class.
 pub(super) fn hook(name: &str) -> String {
     let name = snake(name);
-    if ["start", "safe_stop"].contains(&name.as_str()) { format!("{name}_") } else { member(&name) }
+    if ["start", "safe_stop", "before_sensors"].contains(&name.as_str()) { format!("{name}_") } else { member(&name) }
 }
 
 #[cfg(test)]
@@ -52,6 +52,7 @@ mod tests {
         check("grab", "Grab", "grab");
         // A macro of the headers that the program includes.
         check("EIO", "EIO_", "eio");
+        assert_eq!((hook("beforeSensors").as_str(), hook("safeStop").as_str()), ("before_sensors_", "safe_stop_"));
         assert_eq!((member("operator").as_str(), member("camera").as_str()), ("operator_", "camera"));
     }
 }
