@@ -25,5 +25,6 @@ generate() {
 for program in "$@"; do
     case $program in
     pick_and_place) generate pick_and_place/PlacingSystem.chart pick_and_place/arm ;;
+    object_tracking) generate object_tracking/TrackingSystem.chart object_tracking/head ;;
     esac
 done

@@ -62,7 +62,7 @@ visual_servoing() {
 }
 object_tracking() {
     record object_tracking --virtual 1s
-    hold 0 object_tracking/TrackingSystem.asm run.mcap "conforms"
+    hold 0 object_tracking/TrackingSystem.asm run.mcap "decisions are those of the components' machines"
 }
 pick_and_place() {
     record pick_and_place --virtual 1s

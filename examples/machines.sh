@@ -5,7 +5,7 @@
 set -eu
 groundstate=$(realpath "$1")
 shift
-[ $# -gt 0 ] || set -- pick_and_place press_cell
+[ $# -gt 0 ] || set -- pick_and_place object_tracking press_cell
 cd "$(dirname "$0")"
 out=$(mktemp -d)
 trap 'rm -r "$out"' EXIT
@@ -81,6 +81,23 @@ pick_and_place() {
     fails OnePart Robot.asm "grip = EMPTY or grip = HOLDING" "grip = EMPTY or grip = HOLDING or grip = BUSY"
     fails EmptyGrip Robot.asm "progress := (number, grip = HOLDING)" "progress := (number, jaw_order)"
     fails OnePart Planner.asm "case LOWER: r_send[OPEN]" "case LOWER: r_send[RISE]"
+}
+
+object_tracking() {
+    holds TrackingSystem Tracker Head
+    found ltlSpec_lost Tracker.asm "mode = SEARCHING or isGivenUp" "mode = SEARCHING"
+    found ltlSpec_keeps Tracker.asm "not found and aim != FOLLOWING" "not found"
+    found ltlSpec_known Tracker.asm "mode = SEARCHING or isGivenUp" "isGivenUp"
+    found ltlSpec_honest Tracker.asm "sight := found" "sight := mode != SEARCHING"
+    # Before the first datum of the head.
+    found ltlSpec_lost Tracker.asm "not found and aim != FOLLOWING" "not found and aim = HOLDING"
+    found ltlSpec_follows Head.asm "isNewSight and sight" "isNewSight"
+    found ctlSpec_counts Head.asm "isNewSight and sight" "isDef(sight) and sight"
+    found inv_patience Head.asm "if unseen + 1 = patience then aim := HOLDING endif" "skip"
+    found ltlSpec_givesUp Head.asm "unseen := unseen + 1" "unseen := if unseen + 2 = patience then unseen else unseen + 1 endif"
+    found ctlSpec_atOnce Head.asm "aim := FOLLOWING" "aim := if unseen = patience then aim else FOLLOWING endif"
+    # Each machine is right by itself; how long the head waits shows in the whole robot alone.
+    fails Lost Head.asm "patience = 60" "patience = 50"
 }
 
 # drawn PROPERTY OLD NEW: the fault in the drawn controller violates the property.

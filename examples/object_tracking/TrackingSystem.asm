@@ -1,9 +1,12 @@
-/* Made from TrackingSystem.chart. The elements, the main rule and the initial state are written
+/* Made from TrackingSystem.chart. The elements, the main rule, the initial state and what comes from its components' machines are written
    anew from there; all else is kept. */
 asm TrackingSystem
 
+import CTLLibrary
+import LTLLibrary
 import ../../library/std/StandardLibrary
 import ../../library/patterns/ControlTask
+import Tracking
 
 signature:
 	static camera: Scheduler
@@ -24,6 +27,8 @@ signature:
 	static head_angles_lock: Semaphore
 	static track: SwingingBuffer
 	static track_lock: Semaphore
+	static sight: SharedValue
+	static aim: SharedValue
 	static sightings: MessageQueue
 	static encoder_to_head: SwingingBuffer
 	static encoder_to_head_lock: Semaphore
@@ -36,15 +41,19 @@ signature:
 	static camera_wait: SchedulePhase
 	static tracker_read_image: SchedulePhase
 	static tracker_read_angles: SchedulePhase
+	static tracker_read_aim: SchedulePhase
 	static tracker_elaborate: SchedulePhase
 	static tracker_write: SchedulePhase
+	static tracker_write_sight: SchedulePhase
 	static tracker_tell: SchedulePhase
 	static tracker_wait: SchedulePhase
+	static head_read_sight: SchedulePhase
 	static head_read_track: SchedulePhase
 	static head_read_encoder: SchedulePhase
 	static head_elaborate: SchedulePhase
 	static head_write_motor: SchedulePhase
 	static head_write_angles: SchedulePhase
+	static head_write_aim: SchedulePhase
 	static head_wait: SchedulePhase
 	static motor_read_encoder: SchedulePhase
 	static motor_read_head: SchedulePhase
@@ -57,6 +66,24 @@ signature:
 	static display_receive: SchedulePhase
 	static display_show: SchedulePhase
 	static display_wait: SchedulePhase
+	// what the data of sight say, by their numbers
+	controlled sight_value: Integer -> Boolean
+	// what the data of aim say, by their numbers
+	controlled aim_value: Integer -> Pursuit
+	// Detector: the object is in the image
+	monitored found: Boolean
+	enum domain TrackerMode = {TRACKER_SEARCHING | TRACKER_TRACKING | TRACKER_COVERED}
+	derived tracker_aim: Pursuit
+	controlled tracker_sight: Boolean
+	controlled tracker_mode: TrackerMode
+	derived tracker_isGivenUp: Boolean
+	domain HeadCycles subsetof Integer
+	derived head_sight: Boolean
+	derived head_isNewSight: Boolean
+	controlled head_aim: Pursuit
+	controlled head_unseen: HeadCycles
+	static head_patience: HeadCycles
+	derived head_isSeen: Boolean
 
 definitions:
 	// what each task does when it is its turn
@@ -65,6 +92,85 @@ definitions:
 	invariant inv_patterns over sem_state, indexRead: patternsSound
 
 	invariant inv_deadlines over task_deadlinesMissed: (forall $t in Task with task_deadlinesMissed($t) = 0)
+
+	function tracker_isGivenUp = not found and tracker_aim != FOLLOWING
+
+	// a step of Tracker, the machine of tracker
+	rule r_tracker_Main =
+		par
+			tracker_sight := found
+			if found then
+				tracker_mode := TRACKER_TRACKING
+			else
+				tracker_mode :=
+					if tracker_mode = TRACKER_SEARCHING or tracker_isGivenUp then
+						TRACKER_SEARCHING
+					else
+						TRACKER_COVERED
+					endif
+			endif
+		endpar
+
+	// what was read from aim
+	function tracker_aim = aim_value(sv_receivedSequence(aim))
+
+	// the end of tracker_elaborate
+	rule r_end_tracker_elaborate =
+		seq
+			r_tracker_Main[]
+			sight_value(sv_sequence(sight) + 1) := tracker_sight
+		endseq
+
+	domain HeadCycles = {0 : 60}
+
+	function head_patience = 60
+
+	function head_isSeen = head_isNewSight and head_sight
+
+	// a step of Head, the machine of head
+	rule r_head_Main =
+		if head_isSeen then
+			par
+				head_unseen := 0
+				head_aim := FOLLOWING
+			endpar
+		else
+			if head_unseen < head_patience then
+				par
+					head_unseen := head_unseen + 1
+					if head_unseen + 1 = head_patience then head_aim := HOLDING endif
+				endpar
+			endif
+		endif
+
+	// what was read from sight
+	function head_sight = sight_value(sv_receivedSequence(sight))
+
+	// it was not there in the elaboration before: sight
+	function head_isNewSight = sv_fresh(sight)
+
+	// the end of head_elaborate
+	rule r_end_head_elaborate =
+		seq
+			r_head_Main[]
+			aim_value(sv_sequence(aim) + 1) := head_aim
+		endseq
+
+	// what is computed when an elaboration ends
+	rule r_endOfElaboration($p in SchedulePhase) =
+		switch $p
+			case tracker_elaborate: r_end_tracker_elaborate[]
+			case head_elaborate: r_end_head_elaborate[]
+		endswitch
+
+	// what each task does when it is its turn
+	rule r_computingTask =
+		par
+			r_scheduler_execute[self]
+			if action(scheduler_currentPhase(self)) = ELABORATING then
+				if tElapsed(self) then r_endOfElaboration[scheduler_currentPhase(self)] endif
+			endif
+		endpar
 
 	main rule r_Main =
 		par
@@ -92,7 +198,7 @@ default init s0:
 	function task_timeForElaboration($t in Task) =
 		switch $t
 			case camera_task: 42
-			case head_task: 15
+			case head_task: 17
 			case motor_task: 8
 			case encoder_task: 5
 			otherwise undef
@@ -168,6 +274,10 @@ default init s0:
 	function mq_sent($q in MessageQueue) = 0
 	function mq_refused($q in MessageQueue) = 0
 	function mq_taken($q in MessageQueue) = 0
+	function sv_sequence($v in SharedValue) = 0
+	function sv_overwritten($v in SharedValue) = 0
+	function sv_receivedSequence($v in SharedValue) = 0
+	function sv_fresh($v in SharedValue) = false
 	function scheduler_mainThread($c in Scheduler) =
 		switch $c
 			case camera: camera_task
@@ -193,14 +303,18 @@ default init s0:
 			case camera_write: WRITING_ON_SB
 			case tracker_read_image: READING_FROM_SB
 			case tracker_read_angles: READING_FROM_SB
+			case tracker_read_aim: LOADING
 			case tracker_elaborate: ELABORATING
 			case tracker_write: WRITING_ON_SB
+			case tracker_write_sight: STORING
 			case tracker_tell: SENDING
+			case head_read_sight: LOADING
 			case head_read_track: READING_FROM_SB
 			case head_read_encoder: READING_FROM_SB
 			case head_elaborate: ELABORATING
 			case head_write_motor: WRITING_ON_SB
 			case head_write_angles: WRITING_ON_SB
+			case head_write_aim: STORING
 			case motor_read_encoder: READING_FROM_SB
 			case motor_read_head: READING_FROM_SB
 			case motor_elaborate: ELABORATING
@@ -226,17 +340,21 @@ default init s0:
 			case camera_write: camera_wait
 			case camera_wait: camera_grab
 			case tracker_read_image: tracker_read_angles
-			case tracker_read_angles: tracker_elaborate
+			case tracker_read_angles: tracker_read_aim
+			case tracker_read_aim: tracker_elaborate
 			case tracker_elaborate: tracker_write
-			case tracker_write: tracker_tell
+			case tracker_write: tracker_write_sight
+			case tracker_write_sight: tracker_tell
 			case tracker_tell: tracker_wait
 			case tracker_wait: tracker_read_image
+			case head_read_sight: head_read_track
 			case head_read_track: head_read_encoder
 			case head_read_encoder: head_elaborate
 			case head_elaborate: head_write_motor
 			case head_write_motor: head_write_angles
-			case head_write_angles: head_wait
-			case head_wait: head_read_track
+			case head_write_angles: head_write_aim
+			case head_write_aim: head_wait
+			case head_wait: head_read_sight
 			case motor_read_encoder: motor_read_head
 			case motor_read_head: motor_elaborate
 			case motor_elaborate: motor_wait
@@ -273,5 +391,17 @@ default init s0:
 			case display_wait: sightings
 			otherwise undef
 		endswitch
+	function sharedValue($p in SchedulePhase) =
+		switch $p
+			case tracker_read_aim: aim
+			case tracker_write_sight: sight
+			case head_read_sight: sight
+			case head_write_aim: aim
+			otherwise undef
+		endswitch
 	function elaborationRule($p in SchedulePhase) = undef
-	agent Scheduler: r_controlTask[]
+	function tracker_sight = false
+	function tracker_mode = TRACKER_SEARCHING
+	function head_unseen = head_patience
+	function head_aim = HOLDING
+	agent Scheduler: r_computingTask[]

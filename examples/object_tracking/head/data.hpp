@@ -1,5 +1,5 @@
-// What the channels of TrackingSystem.chart carry: a struct for each, of its name. Angles are pan (to the left) and tilt (up),
-// in radians; instants are those of the run's clock.
+// What the channels of TrackingSystem.chart carry that have no domain there: a struct for each, of its name. Angles are pan (to
+// the left) and tilt (up), in radians; instants are those of the run's clock. What the others carry is generated.
 #pragma once
 
 #include <array>
@@ -29,8 +29,7 @@ struct HeadAngles {
 struct Track {
     Angles position{};
     Angles velocity{};
-    std::int64_t at_ns = 0;    ///< when it was there
-    std::int64_t seen_ns = 0;  ///< when it was seen last
+    std::int64_t at_ns = 0;  ///< when it was there
 };
 
 /// What an image told, for whoever looks on.

@@ -9,6 +9,8 @@ using namespace groundstate;
 
 namespace {
 
+constexpr std::int64_t never_ns = INT64_MIN / 2;  // so long ago that no set-point is fresh
+
 double seconds(std::int64_t span_ns) { return static_cast<double>(span_ns) * 1e-9; }
 
 Angles later(const Angles& position, const Angles& velocity, std::int64_t span_ns) {
@@ -27,7 +29,7 @@ ObjectTracker::ObjectTracker(const TrackerSettings& settings)
     : settings_{settings}, detector_{640, 480, {.dark = false}} {}
 
 std::optional<vision::Disc> ObjectTracker::find(ConstFrameView image, const Angles& head) {
-    if (tracking_) {
+    if (!searches_whole()) {
         const servo::Pixel expected = lens.pixel(seen_from(head, track_.position));
         return detector_.near(image, expected, 1.5 * radius_ + 12);
     }
@@ -36,47 +38,56 @@ std::optional<vision::Disc> ObjectTracker::find(ConstFrameView image, const Angl
     return found.empty() ? std::nullopt : std::optional{found.front()};
 }
 
-bool ObjectTracker::locate(const Cycle&, const In& in, Out& out) {
-    if (!in.image || !in.image.fresh || !in.head_angles) {
-        return false;
+void ObjectTracker::before_sensors(const Cycle&, const In& in) {
+    disc_.reset();
+    if (!in.image || !in.image.fresh || !in.head_angles || in.head_angles->measured_ns == never_ns) {
+        return;
     }
     const std::int64_t captured_ns = in.image->captured_ns;
     const Angles head =
         later(in.head_angles->position, in.head_angles->velocity, captured_ns - in.head_angles->measured_ns);
     const std::int64_t span_ns = captured_ns - track_.at_ns;
-    track_.position = later(track_.position, track_.velocity, tracking_ ? span_ns : 0);
+    const bool searched = searches_whole();
+    track_.position = later(track_.position, track_.velocity, searched ? 0 : span_ns);
     track_.at_ns = captured_ns;
 
-    const auto disc = find(in.image->frame.view(), head);
-    if (disc) {
-        const Angles seen = direction(head, lens.normalised(disc->centre));
-        for (std::size_t i = 0; i < 2; ++i) {
-            if (tracking_) {
-                const double off = seen[i] - track_.position[i];
-                track_.position[i] += settings_.alpha * off;
-                track_.velocity[i] += settings_.beta * off / std::max(1e-3, seconds(span_ns));
-            } else {
-                track_.position[i] = seen[i];
-                track_.velocity[i] = 0;
-            }
-        }
-        track_.seen_ns = captured_ns;
-        radius_ = std::sqrt(disc->area / M_PI);
-        tracking_ = true;
-        out.sightings.off_centre = std::hypot(disc->centre.u - lens.cx, disc->centre.v - lens.cy);
-    } else {
+    disc_ = find(in.image->frame.view(), head);
+    if (!disc_) {
         ++unseen_;
-        tracking_ = tracking_ && captured_ns - track_.seen_ns <= settings_.most_unseen_ns;
+        return;
     }
-    out.track = track_;
-    out.sightings.captured_ns = captured_ns;
-    out.sightings.seen = disc.has_value();
-    return disc || tracking_;
+    const Angles seen = direction(head, lens.normalised(disc_->centre));
+    for (std::size_t i = 0; i < 2; ++i) {
+        if (searched) {
+            track_.position[i] = seen[i];
+            track_.velocity[i] = 0;
+        } else {
+            const double off = seen[i] - track_.position[i];
+            track_.position[i] += settings_.alpha * off;
+            track_.velocity[i] += settings_.beta * off / std::max(1e-3, seconds(span_ns));
+        }
+    }
+    radius_ = std::sqrt(disc_->area / M_PI);
 }
 
-bool HeadController::follow(const Cycle&, const In& in, Out& out) {
+bool ObjectTracker::locate(const Cycle& cycle, const In& in, Out& out) {
+    const bool decided = TrackerMachine::locate(cycle, in, out);
+    out.track = track_;
+    out.sightings = {.captured_ns = in.image ? in.image->captured_ns : never_ns, .seen = disc_.has_value()};
+    if (disc_) {
+        out.sightings.off_centre = std::hypot(disc_->centre.u - lens.cx, disc_->centre.v - lens.cy);
+    }
+    return decided;
+}
+
+// Whether it is seen is read before where it is, so what is followed has a place.
+bool HeadController::follow(const Cycle& cycle, const In& in, Out& out) {
+    const bool decided = HeadMachine::follow(cycle, in, out);
+    holding_ = out.aim.value == Pursuit::HOLDING;
     if (!in.encoder_to_head) {
-        return false;
+        out.head_to_motor = {.set_ns = never_ns};
+        out.head_angles = {.measured_ns = never_ns};
+        return decided;
     }
     const std::int64_t now_ns = now_();
     const double dt = last_ns_ < 0 ? 0 : seconds(now_ns - last_ns_);
@@ -84,10 +95,9 @@ bool HeadController::follow(const Cycle&, const In& in, Out& out) {
         position_ = in.encoder_to_head->position;
     }
     last_ns_ = now_ns;
-    holding_ = !in.track || now_ns - in.track->seen_ns > settings_.most_unseen_ns;
     for (std::size_t i = 0; i < 2; ++i) {
         double wanted = 0;
-        if (!holding_) {
+        if (!holding_ && in.track) {
             const double there = in.track->position[i] + in.track->velocity[i] * seconds(now_ns - in.track->at_ns);
             wanted = in.track->velocity[i] + settings_.pull * (there - position_[i]);
             wanted = std::clamp(wanted, -settings_.most_velocity, settings_.most_velocity);
@@ -98,7 +108,7 @@ bool HeadController::follow(const Cycle&, const In& in, Out& out) {
     }
     out.head_to_motor = {position_, velocity_, now_ns};
     out.head_angles = {in.encoder_to_head->position, velocity_, in.encoder_to_head->measured_ns};
-    return true;
+    return decided;
 }
 
 void HeadDrives::safe_stop() noexcept { command_(now_(), {}); }

@@ -1,8 +1,8 @@
-// What the components of the tracking head do.
+// What the components of the tracking head do beside what their machines decide: pictures, directions, motion.
 //
-// The tracker turns what it sees into a direction, with the head's angles at the instant of the image, and filters it: a
-// constant velocity between images (alpha-beta filter, Kalata 1984). The head follows where the object is by now. An object
-// that is not seen is led on for 300 ms; then the head stands, and the whole image is searched.
+// Whether the object is searched, tracked or lost, and whether the head follows it, is in Tracker.asm and Head.asm. Here the
+// tracker turns what it sees into a direction, with the head's angles at the instant of the image, and filters it: a constant
+// velocity between images (alpha-beta filter, Kalata 1984). The head follows where the object is by now.
 #pragma once
 
 #include <functional>
@@ -11,7 +11,7 @@
 #include <groundstate/kinematics/follower.hpp>
 #include <groundstate/vision/disc_detector.hpp>
 
-#include "generated/tracking_system.hpp"
+#include "generated/tracking_system_machines.hpp"
 #include "scenery.hpp"
 
 namespace tracking_system {
@@ -29,39 +29,42 @@ class ImageGrabber final : public Camera {
 };
 
 struct TrackerSettings {
-    double alpha = 0.6;                        ///< of the deviation in position
-    double beta = 0.2;                         ///< of the deviation, in velocity
-    std::int64_t most_unseen_ns = 300'000'000; ///< then the object is lost
+    double alpha = 0.6;  ///< of the deviation in position
+    double beta = 0.2;   ///< of the deviation, in velocity
 };
 
-class ObjectTracker final : public Tracker {
+/// The machine says where to look; here is what is seen there.
+class ObjectTracker final : public TrackerMachine {
   public:
     explicit ObjectTracker(const TrackerSettings& settings = {});
+    void before_sensors(const Cycle& cycle, const In& in) override;
+    bool found(const Cycle&) override { return disc_.has_value(); }
     bool locate(const Cycle& cycle, const In& in, Out& out) override;
 
     long searches() const noexcept { return searches_; }
     long unseen() const noexcept { return unseen_; }
 
   private:
+    bool searches_whole() const noexcept { return machine().mode() == ::tracker::Mode::SEARCHING; }
     std::optional<groundstate::vision::Disc> find(groundstate::ConstFrameView image, const Angles& head);
 
     TrackerSettings settings_;
     groundstate::vision::DiscDetector detector_;
+    std::optional<groundstate::vision::Disc> disc_{};
     Track track_{};
     double radius_ = 0;
-    bool tracking_ = false;
     long searches_ = 0;
     long unseen_ = 0;
 };
 
 struct HeadSettings {
-    std::int64_t most_unseen_ns = 300'000'000;
     double pull = 12;  ///< 1/s: how fast it catches up
     double most_velocity = 2.5;
     double most_acceleration = 25;
 };
 
-class HeadController final : public Head {
+/// The machine says whether the head follows; here is how.
+class HeadController final : public HeadMachine {
   public:
     HeadController(Now now, const HeadSettings& settings = {}) : now_{std::move(now)}, settings_{settings} {}
     bool follow(const Cycle& cycle, const In& in, Out& out) override;
