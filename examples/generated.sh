@@ -26,5 +26,6 @@ for program in "$@"; do
     case $program in
     pick_and_place) generate pick_and_place/PlacingSystem.chart pick_and_place/arm ;;
     object_tracking) generate object_tracking/TrackingSystem.chart object_tracking/head ;;
+    micro_assembly) generate micro_assembly/AssemblySystem.chart micro_assembly/stage ;;
     esac
 done

@@ -70,7 +70,7 @@ pick_and_place() {
 }
 micro_assembly() {
     record micro_assembly --virtual 1s
-    hold 0 micro_assembly/AssemblySystem.asm run.mcap "conforms"
+    hold 0 micro_assembly/AssemblySystem.asm run.mcap "decisions are those of the components' machines"
 }
 for program in "$@"; do "$program"; done
 

@@ -5,7 +5,7 @@
 set -eu
 groundstate=$(realpath "$1")
 shift
-[ $# -gt 0 ] || set -- pick_and_place object_tracking press_cell
+[ $# -gt 0 ] || set -- pick_and_place object_tracking micro_assembly press_cell
 cd "$(dirname "$0")"
 out=$(mktemp -d)
 trap 'rm -r "$out"' EXIT
@@ -98,6 +98,34 @@ object_tracking() {
     found ctlSpec_atOnce Head.asm "aim := FOLLOWING" "aim := if unseen = patience then aim else FOLLOWING endif"
     # Each machine is right by itself; how long the head waits shows in the whole robot alone.
     fails Lost Head.asm "patience = 60" "patience = 50"
+}
+
+# staged PROPERTY OLD NEW: the same of the stage; if it waits for fewer cycles, it has fewer states and is wrong in the same way.
+staged() {
+    seeded Stage.asm "$2" "$3"
+    sed -i "s/patience = 50/patience = 3/" "$robot/Stage.asm"
+    expect 1 "^violated  $1" "$groundstate" verify "$robot/Stage.asm" --quiet
+}
+
+micro_assembly() {
+    holds AssemblySystem Supervisor Aligner Stage
+    found ltlSpec_aligned Supervisor.asm "if state = ALIGNED then" "if state = ALIGNING then"
+    found ltlSpec_done Supervisor.asm "if state = PLACED then" "if isDef(state) then"
+    found ctlSpec_retracted Supervisor.asm "if state = RETRACTED then r_end[FAILED] else r_goOn[] endif" "r_goOn[]"
+    found ltlSpec_together Aligner.asm "right := 0
+				guidance := (work, if" "guidance := (work, if"
+    found ltlSpec_together Aligner.asm "marked and crossed" "crossed"
+    found ltlSpec_hidden Aligner.asm "(recipe, if marked then APART else HIDDEN endif)" "(recipe, APART)"
+    found ltlSpec_obeys Aligner.asm "work := recipe" "skip"
+    staged ctlSpec_overload "state = RETRACTING or contact = OVERLOAD" "contact = OVERLOAD"
+    staged ctlSpec_overload "state = RETRACTING or contact = OVERLOAD" "state = RETRACTING or contact = OVERLOAD and state != PLACED"
+    staged ltlSpec_gentle "isNewContact and contact = FREE then DOWN" "contact = FREE then DOWN"
+    staged ltlSpec_placed "case LOWER: r_lower[]" "case REST: r_lower[]"
+    staged ltlSpec_sighted "and (isSeen or unseen < patience)" ""
+    staged ltlSpec_corrects "isNewGuidance and second(guidance) != HIDDEN" "isNewGuidance"
+    staged ltlSpec_up "if isUp then" "if not isUp then"
+    # Right by itself, whatever it waits for; but images do not come so fast.
+    fails OnePart Stage.asm "patience = 50" "patience = 5"
 }
 
 # drawn PROPERTY OLD NEW: the fault in the drawn controller violates the property.

@@ -16,7 +16,7 @@ Loop run(const LoopSettings& settings, C& clock) {
     Bench bench{settings.bench, loop.origin_ns};
     MicroscopeImages microscope{now, bench};
     MarkAligner aligner;
-    ForceSensor force{now, bench};
+    ForceSensor force{now, bench, settings.force, static_cast<std::size_t>(settings.run.span_ns / 1'000'000 + 10)};
     StageMover stage{now, settings.stage, static_cast<std::size_t>(settings.run.span_ns / 2'000'000 + 10)};
     PiezoAxes piezo{now, bench};
     LinearScales scales{now, bench};
@@ -29,8 +29,8 @@ Loop run(const LoopSettings& settings, C& clock) {
     loop.worst_force = bench.worst_force();
     loop.done = supervisor.is_done();
     loop.failed = supervisor.failed();
-    loop.work = supervisor.work();
     loop.states = stage.states();
+    loop.felt = force.felt();
     return loop;
 }
 

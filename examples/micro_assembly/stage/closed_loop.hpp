@@ -13,6 +13,7 @@ BenchSettings scattered(std::uint64_t seed);
 struct LoopSettings {
     groundstate::closed_loop::RunSettings run{.span_ns = 4'000'000'000};
     BenchSettings bench{};
+    ForceSettings force{};
     StageSettings stage{};
 };
 
@@ -23,8 +24,8 @@ struct Loop {
     double worst_force = 0;
     bool done = false;
     bool failed = false;  ///< the force was too large, and the stage has retracted
-    Work work = Work::wait;
-    std::vector<State> states{};
+    std::vector<Stood> states{};
+    std::vector<Felt> felt{};
     std::int64_t origin_ns = 0;
     groundstate::RunAccount account{};
 

@@ -1,8 +1,7 @@
-// Marks to corrections, corrections to axes, states to recipes.
+// Marks to corrections, corrections to axes.
 #include "hooks.hpp"
 
 #include <algorithm>
-#include <optional>
 
 namespace assembly_system {
 
@@ -10,7 +9,7 @@ using namespace groundstate;
 
 namespace {
 
-constexpr int enough_images = 5;
+constexpr std::int64_t never_ns = INT64_MIN / 2;  // so long ago that the axes do not follow
 constexpr double quarter = M_PI / 2;
 
 Lying lying(const vision::Disc& one, const vision::Disc& other) {
@@ -30,91 +29,80 @@ bool MicroscopeImages::grab(const Cycle&, const In&, Out& out) {
     return bench_.draw(out.image.captured_ns, out.image.frame.view());
 }
 
-bool MarkAligner::compare(const Cycle&, const In& in, Out& out) {
-    if (in.recipe && in.recipe.fresh) {
-        recipe_ = *in.recipe;
-        aligned_images_ = 0;
-    }
+void MarkAligner::before_sensors(const Cycle&, const In& in) {
+    marked_ = crossed_ = false;
     if (!in.image || !in.image.fresh) {
-        return false;
+        return;
     }
     const std::vector<vision::Disc>& marks = detector_.search(in.image->frame.view());
     // Two large ones, two small ones, the largest first.
     if (marks.size() < 4 || marks[1].area < 1.5 * marks[2].area || marks[3].area * 1.5 < marks[2].area) {
-        aligned_images_ = 0;
-        return false;
+        return;
     }
     const Lying substrate = lying(marks[0], marks[1]);
     const Lying part = lying(marks[2], marks[3]);
-    Correction& correction = out.correction;
-    correction = {.number = recipe_.number,
-                  .work = recipe_.work,
-                  .x = substrate.x - part.x,
-                  .y = substrate.y - part.y,
-                  .turn = of_line(substrate.turn - part.turn + quarter),
-                  .captured_ns = in.image->captured_ns};
-    const bool aligned = std::hypot(correction.x, correction.y) < recipe_.tolerance &&
-                         std::abs(correction.turn) < recipe_.turn_tolerance;
-    aligned_images_ = aligned ? aligned_images_ + 1 : 0;
-    correction.aligned_images = aligned_images_;
-    return true;
+    correction_ = {.x = substrate.x - part.x,
+                   .y = substrate.y - part.y,
+                   .turn = of_line(substrate.turn - part.turn + quarter),
+                   .captured_ns = in.image->captured_ns};
+    marked_ = true;
+    crossed_ = std::hypot(correction_.x, correction_.y) < settings_.tolerance &&
+               std::abs(correction_.turn) < settings_.turn_tolerance;
+}
+
+bool MarkAligner::compare(const Cycle& cycle, const In& in, Out& out) {
+    out.correction = correction_;
+    return AlignerMachine::compare(cycle, in, out);
 }
 
 bool ForceSensor::feel(const Cycle&, const In&, Out& out) {
     const std::int64_t now_ns = now_();
-    out.contact = {bench_.force(now_ns), now_ns};
+    const double force = bench_.force(now_ns);
+    out.contact.value = force > settings_.most ? Touch::OVERLOAD : force > settings_.contact ? Touch::CONTACT : Touch::FREE;
+    if (felt_.size() < felt_.capacity()) {
+        felt_.push_back({force, now_ns});
+    }
     return true;
 }
 
-void StageMover::work(const In& in, std::int64_t now_ns, double dt) {
-    const double force = in.contact ? in.contact->force : 0;
-    state_.overload = state_.overload || force > settings_.most_force;
-    if (state_.overload) {
-        state_.work = Work::retract;
-        set_[3] = std::max(0.0, set_[3] - settings_.retracting * dt);
-        state_.retracted = set_[3] == 0;
-        return;
-    }
-    if (!in.correction || now_ns - in.correction->captured_ns > settings_.most_age_ns) {
-        state_.work = Work::wait;
-        return;
-    }
-    const Correction& correction = *in.correction;
-    state_.work = correction.work;
-    state_.aligned_images = correction.aligned_images;
-    if (correction.work == Work::align && in.correction.fresh) {
-        // From where the axes are, not from where they were to be: an axis that is still on its way is not sent farther.
-        const Axes& position = in.scale->position;
-        set_[0] = position[0] + settings_.gain * correction.x;
-        set_[1] = position[1] + settings_.gain * correction.y;
-        set_[2] = position[2] + settings_.gain * correction.turn;
-    }
-    const bool feels = in.contact && now_ns - in.contact->at_ns <= settings_.force_age_ns;
-    if (correction.work == Work::lower && feels && !state_.placed) {
-        state_.placed = force > settings_.contact;
-        set_[3] += state_.placed ? 0 : settings_.lowering * dt;
+void StageMover::lead(Motion motion, const In& in, double dt) {
+    switch (motion) {
+        case Motion::STAND: break;
+        case Motion::CORRECT:
+            if (in.correction && in.correction->captured_ns != followed_ns_) {
+                // From where the axes are, not from where they were to be: an axis that is still on its way is not sent farther.
+                const Axes& position = in.scale->position;
+                set_[0] = position[0] + settings_.gain * in.correction->x;
+                set_[1] = position[1] + settings_.gain * in.correction->y;
+                set_[2] = position[2] + settings_.gain * in.correction->turn;
+                followed_ns_ = in.correction->captured_ns;
+            }
+            break;
+        case Motion::DOWN: set_[3] += settings_.lowering * dt; break;
+        case Motion::UP: set_[3] = std::max(0.0, set_[3] - settings_.retracting * dt); break;
     }
 }
 
-bool StageMover::approach(const Cycle&, const In& in, Out& out) {
-    if (!in.scale) {
-        return false;
-    }
+// What is to be done is read before the correction, which is thus of that image or a later one: it may have come in the cycle
+// before. Each is followed once.
+bool StageMover::approach(const Cycle& cycle, const In& in, Out& out) {
+    const bool decided = StageMachine::approach(cycle, in, out);
     const std::int64_t now_ns = now_();
+    if (!in.scale) {
+        out.axis_order = {.set_ns = never_ns};
+        return decided;
+    }
     const double dt = last_ns_ < 0 ? 0 : static_cast<double>(now_ns - last_ns_) * 1e-9;
     if (last_ns_ < 0) {
         set_ = in.scale->position;
     }
     last_ns_ = now_ns;
-    work(in, now_ns, dt);
-    state_.force = in.contact ? in.contact->force : 0;
-    state_.at_ns = now_ns;
+    lead(out.motion.value_or(Motion::STAND), in, dt);
     out.axis_order = {set_, now_ns};
-    out.state = state_;
     if (states_.size() < states_.capacity()) {
-        states_.push_back(state_);
+        states_.push_back({out.state.value, now_ns});
     }
-    return true;
+    return decided;
 }
 
 // The axes measure themselves, faster than any channel could.
@@ -138,30 +126,6 @@ bool LinearScales::acquire(const Cycle&, const In&, Out& out) {
     const std::int64_t now_ns = now_();
     out.scale = {bench_.measured(now_ns), now_ns};
     return true;
-}
-
-bool AssemblySupervisor::order(Work work, Out& out) {
-    work_ = work;
-    out.recipe = {.number = ++number_, .work = work};
-    return true;
-}
-
-bool AssemblySupervisor::decide(const Cycle&, const In& in, Out& out) {
-    if (!in.state || done_ || failed_) {
-        return false;
-    }
-    if (in.state->overload) {
-        failed_ = in.state->retracted;
-        return false;
-    }
-    switch (work_) {
-        case Work::wait: return order(Work::align, out);
-        case Work::align:
-            return in.state->work == Work::align && in.state->aligned_images >= enough_images && order(Work::lower, out);
-        case Work::lower: done_ = in.state->placed; break;
-        case Work::retract: break;
-    }
-    return false;
 }
 
 }  // namespace assembly_system

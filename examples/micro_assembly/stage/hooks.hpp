@@ -1,8 +1,7 @@
-// What the components of the assembly do.
+// What the components of the assembly do beside what their machines decide: pictures, forces, motion.
 //
-// The supervisor orders: align, and when enough images in a row are aligned, lower; when the part lies, it is done. The
-// aligner compares the marks; the stage follows its corrections, lowers until it feels the contact, and retracts by itself
-// when the force is too large. Without fresh corrections it neither aligns nor lowers: it stands.
+// What is ordered when, whether the part lies right, and what the axes are led to do is in Supervisor.asm, Aligner.asm and
+// Stage.asm. Here the marks are compared, forces are told apart by their bounds, and the axes are led.
 #pragma once
 
 #include <functional>
@@ -10,7 +9,7 @@
 #include <groundstate/vision/disc_detector.hpp>
 
 #include "bench.hpp"
-#include "generated/assembly_system.hpp"
+#include "generated/assembly_system_machines.hpp"
 
 namespace assembly_system {
 
@@ -33,54 +32,89 @@ struct Lying {
     double turn = 0;  ///< of the line through its marks, within half a turn
 };
 
-class MarkAligner final : public Aligner {
+struct AlignerSettings {
+    double tolerance = 5e-7;       ///< m
+    double turn_tolerance = 1e-3;  ///< rad
+};
+
+/// The machine says what is told to the stage; here is what an image shows.
+class MarkAligner final : public AlignerMachine {
   public:
+    void before_sensors(const Cycle& cycle, const In& in) override;
+    bool marked(const Cycle&) override { return marked_; }
+    bool crossed(const Cycle&) override { return crossed_; }
     bool compare(const Cycle& cycle, const In& in, Out& out) override;
 
   private:
+    AlignerSettings settings_{};
     groundstate::vision::DiscDetector detector_{640, 480, {.dark = false, .least_area = 60}};
-    Recipe recipe_{};
-    int aligned_images_ = 0;
+    Correction correction_{};
+    bool marked_ = false;
+    bool crossed_ = false;
+};
+
+struct ForceSettings {
+    double contact = 0.02;  ///< N: it lies
+    double most = 0.1;      ///< N: more than the part bears
+};
+
+/// What was felt, and when.
+struct Felt {
+    double force = 0;
+    std::int64_t at_ns = 0;
 };
 
 class ForceSensor final : public Force {
   public:
-    ForceSensor(Now now, Bench& bench) : now_{std::move(now)}, bench_{bench} {}
+    ForceSensor(Now now, Bench& bench, const ForceSettings& settings, std::size_t felt)
+        : now_{std::move(now)}, bench_{bench}, settings_{settings} {
+        felt_.reserve(felt);
+    }
     bool feel(const Cycle& cycle, const In& in, Out& out) override;
+
+    const std::vector<Felt>& felt() const noexcept { return felt_; }
 
   private:
     Now now_;
     Bench& bench_;
+    ForceSettings settings_;
+    std::vector<Felt> felt_{};
 };
 
 struct StageSettings {
-    double gain = 0.5;                       ///< of a correction
-    double lowering = 2e-4;                  ///< m/s
-    double retracting = 1e-3;                ///< m/s
-    double contact = 0.02;                   ///< N: it lies
-    double most_force = 0.1;                 ///< N: then it retracts
-    std::int64_t most_age_ns = 100'000'000;  ///< of a correction
-    std::int64_t force_age_ns = 5'000'000;   ///< of a contact, while it lowers
+    double gain = 0.5;         ///< of a correction
+    double lowering = 2e-4;    ///< m/s
+    double retracting = 1e-3;  ///< m/s
 };
 
-class StageMover final : public Stage {
+/// How far the stage was, and when.
+struct Stood {
+    Progress state{};
+    std::int64_t at_ns = 0;
+};
+
+/// The machine says what the axes are led to do; here is where that leads them.
+class StageMover final : public StageMachine {
   public:
     StageMover(Now now, const StageSettings& settings, std::size_t states) : now_{std::move(now)}, settings_{settings} {
         states_.reserve(states);
     }
     bool approach(const Cycle& cycle, const In& in, Out& out) override;
+    /// As far as it has led them.
+    bool is_up(const Cycle&) override { return set_[3] <= 0; }
+    void motion(const Cycle&, Motion) override {}
 
-    const std::vector<State>& states() const noexcept { return states_; }
+    const std::vector<Stood>& states() const noexcept { return states_; }
 
   private:
-    void work(const In& in, std::int64_t now_ns, double dt);
+    void lead(Motion motion, const In& in, double dt);
 
     Now now_;
     StageSettings settings_;
     Axes set_{};
-    State state_{};
-    std::vector<State> states_{};
+    std::vector<Stood> states_{};
     std::int64_t last_ns_ = -1;
+    std::int64_t followed_ns_ = -1;  ///< when the image was taken whose correction was followed last
 };
 
 class PiezoAxes final : public Piezo {
@@ -105,21 +139,11 @@ class LinearScales final : public ScalesReader {
     Bench& bench_;
 };
 
-class AssemblySupervisor final : public Supervisor {
+/// It does what its machine decides.
+class AssemblySupervisor final : public SupervisorMachine {
   public:
-    bool decide(const Cycle& cycle, const In& in, Out& out) override;
-
-    Work work() const noexcept { return work_; }
-    bool is_done() const noexcept { return done_; }
-    bool failed() const noexcept { return failed_; }
-
-  private:
-    bool order(Work work, Out& out);
-
-    Work work_ = Work::wait;
-    std::int64_t number_ = 0;
-    bool done_ = false;
-    bool failed_ = false;
+    bool is_done() const { return machine().ending() == ::supervisor::Ending::DONE; }
+    bool failed() const { return machine().ending() == ::supervisor::Ending::FAILED; }
 };
 
 }  // namespace assembly_system

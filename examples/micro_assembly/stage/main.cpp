@@ -13,23 +13,28 @@ using groundstate::closed_loop::Json;
 
 namespace {
 
-const char* text(Work work) {
-    switch (work) {
-        case Work::wait: return "wait";
-        case Work::align: return "align";
-        case Work::lower: return "lower";
-        case Work::retract: return "retract";
+const char* text(Progress state) {
+    switch (state) {
+        case Progress::PAUSED: return "wait";
+        case Progress::ALIGNING:
+        case Progress::ALIGNED: return "align";
+        case Progress::LOWERING:
+        case Progress::PLACED: return "lower";
+        case Progress::RETRACTING:
+        case Progress::RETRACTED: return "retract";
     }
     return "";
 }
 
 void write_columns(Json& json, const Loop& loop) {
+    const auto since = [&](std::int64_t at_ns) { return groundstate::closed_loop::seconds(at_ns - loop.origin_ns); };
     json.key("stage").open('{');
-    json.column("t_s", loop.states, [&](Json& j, const State& s) {
-        j.number(groundstate::closed_loop::seconds(s.at_ns - loop.origin_ns));
-    });
-    json.column("work", loop.states, [](Json& j, const State& s) { j.text(text(s.work)); });
-    json.column("force_mN", loop.states, [](Json& j, const State& s) { j.number(s.force * 1e3); });
+    json.column("t_s", loop.states, [&](Json& j, const Stood& s) { j.number(since(s.at_ns)); });
+    json.column("work", loop.states, [](Json& j, const Stood& s) { j.text(text(s.state)); });
+    json.close('}');
+    json.key("contact").open('{');
+    json.column("t_s", loop.felt, [&](Json& j, const Felt& f) { j.number(since(f.at_ns)); });
+    json.column("force_mN", loop.felt, [](Json& j, const Felt& f) { j.number(f.force * 1e3); });
     json.close('}');
     json.key("end").open('{');
     json.key("off_um").number(loop.off() * 1e6);

@@ -38,5 +38,4 @@ fn the_fault_has_a_page_whose_example_shows_it() {
 #[test]
 fn headers_are_fresh() {
     check("visual_servoing/ControllerSystem.chart", "visual_servoing/robot");
-    check("micro_assembly/AssemblySystem.chart", "micro_assembly/stage");
 }

@@ -29,7 +29,7 @@ TEST(Assembly, IsTheSameForASeed) {
 
 // The sensor's threshold is above the bound: the bound alone is left.
 TEST(Assembly, RetractsWhenTheForceIsTooLarge) {
-    const Loop result = run({.bench = {.x = 5e-5, .y = -3e-5, .turn = 0.05}, .stage = {.contact = 1.0, .most_force = 0.06}});
+    const Loop result = run({.bench = {.x = 5e-5, .y = -3e-5, .turn = 0.05}, .force = {.contact = 1.0, .most = 0.06}});
     EXPECT_TRUE(result.failed);
     EXPECT_LT(result.worst_force, 0.08);
     EXPECT_LT(result.position[3], 1e-6);
