@@ -115,7 +115,7 @@ micro_assembly() {
     found ltlSpec_together Aligner.asm "right := 0
 				guidance := (work, if" "guidance := (work, if"
     found ltlSpec_together Aligner.asm "marked and crossed" "crossed"
-    found ltlSpec_hidden Aligner.asm "(recipe, if marked then APART else HIDDEN endif)" "(recipe, APART)"
+    found ltlSpec_seen Aligner.asm "(recipe, if marked then APART else HIDDEN endif)" "(recipe, APART)"
     found ltlSpec_obeys Aligner.asm "work := recipe" "skip"
     staged ctlSpec_overload "state = RETRACTING or contact = OVERLOAD" "contact = OVERLOAD"
     staged ctlSpec_overload "state = RETRACTING or contact = OVERLOAD" "state = RETRACTING or contact = OVERLOAD and state != PLACED"

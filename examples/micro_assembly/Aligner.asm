@@ -55,8 +55,7 @@ definitions:
 			implies y(recipe = REST) and work = REST
 				or y(recipe = ALIGN) and work = ALIGN
 				or y(recipe = LOWER) and work = LOWER)
-	LTLSPEC ltlSpec_hidden: g(y(not marked) implies second(guidance) = HIDDEN)
-	LTLSPEC ltlSpec_seen: g(second(guidance) != HIDDEN implies y(marked))
+	LTLSPEC ltlSpec_seen: g(y(marked) iff second(guidance) != HIDDEN)
 
 	/* five images in a row have shown the cross, all of them since the order */
 	LTLSPEC ltlSpec_together:
@@ -67,6 +66,22 @@ definitions:
 				and crossed
 				and y(
 					marked and crossed and y(marked and crossed and y(marked and crossed and y(marked and crossed))))))
+	LTLSPEC ltlSpec_enough:
+		g(
+			y(
+				marked
+				and crossed
+				and recipe = work
+				and y(
+					marked
+					and crossed
+					and recipe = work
+					and y(
+						marked
+						and crossed
+						and recipe = work
+						and y(marked and crossed and recipe = work and y(marked and crossed and recipe = work)))))
+			implies second(guidance) = TOGETHER)
 	LTLSPEC ltlSpec_since:
 		g(y(work = REST) and work = ALIGN or y(work = ALIGN) and work = LOWER implies second(guidance) != TOGETHER)
 	CTLSPEC ctlSpec_together: ag(ef(guidance = (ALIGN, TOGETHER)) and ef(guidance = (LOWER, HIDDEN)))
