@@ -122,6 +122,7 @@ micro_assembly() {
     staged ltlSpec_gentle "isNewContact and contact = FREE then DOWN" "contact = FREE then DOWN"
     staged ltlSpec_placed "case LOWER: r_lower[]" "case REST: r_lower[]"
     staged ltlSpec_sighted "and (isSeen or unseen < patience)" ""
+    staged ltlSpec_follows "(isSeen or unseen < patience)" "isSeen and unseen < patience"
     staged ltlSpec_corrects "isNewGuidance and second(guidance) != HIDDEN" "isNewGuidance"
     staged ltlSpec_up "if isUp then" "if not isUp then"
     # Right by itself, whatever it waits for; but images do not come so fast.

@@ -88,6 +88,25 @@ definitions:
 	LTLSPEC ltlSpec_corrects:
 		g(motion = CORRECT implies y(isNewGuidance and (guidance = (ALIGN, APART) or guidance = (ALIGN, TOGETHER))))
 
+	/* what is ordered is done at once, if nothing is in its way */
+	LTLSPEC ltlSpec_follows:
+		g(
+			y(
+				isNewGuidance
+				and (guidance = (ALIGN, APART) or guidance = (ALIGN, TOGETHER))
+				and contact != OVERLOAD
+				and (state = PAUSED or state = ALIGNING or state = ALIGNED or state = LOWERING))
+			implies motion = CORRECT and (state = ALIGNED iff y(guidance = (ALIGN, TOGETHER))))
+	LTLSPEC ltlSpec_lowers:
+		g(
+			y(
+				isNewGuidance
+				and (guidance = (LOWER, APART) or guidance = (LOWER, TOGETHER))
+				and isNewContact
+				and contact = FREE
+				and (state = PAUSED or state = ALIGNING or state = ALIGNED or state = LOWERING))
+			implies motion = DOWN)
+
 	/* what it says is so; once placed, the part is not moved any more, unless more is felt than it bears */
 	LTLSPEC ltlSpec_aligned: g(state = ALIGNED implies y(guidance = (ALIGN, TOGETHER)))
 	LTLSPEC ltlSpec_placed:
