@@ -82,7 +82,7 @@ definitions:
 	LTLSPEC ltlSpec_gentle: g(motion = DOWN implies y(isNewContact and contact = FREE))
 	LTLSPEC ltlSpec_sighted:
 		g(
-			motion = DOWN or motion = CORRECT
+			motion = DOWN or motion = CORRECT or state = ALIGNING or state = ALIGNED or state = LOWERING
 			implies y(unseen < patience or isNewGuidance and second(guidance) != HIDDEN))
 	/* each correction is followed once, and none of an image without marks */
 	LTLSPEC ltlSpec_corrects:
@@ -100,8 +100,8 @@ definitions:
 	LTLSPEC ltlSpec_lowers:
 		g(
 			y(
-				isNewGuidance
-				and (guidance = (LOWER, APART) or guidance = (LOWER, TOGETHER))
+				(isNewGuidance and second(guidance) != HIDDEN or unseen < patience)
+				and (exist $m in Marks with guidance = (LOWER, $m))
 				and isNewContact
 				and contact = FREE
 				and (state = PAUSED or state = ALIGNING or state = ALIGNED or state = LOWERING))
@@ -109,6 +109,10 @@ definitions:
 
 	/* what it says is so; once placed, the part is not moved any more, unless more is felt than it bears */
 	LTLSPEC ltlSpec_aligned: g(state = ALIGNED implies y(guidance = (ALIGN, TOGETHER)))
+	LTLSPEC ltlSpec_told:
+		g(
+			(state = ALIGNING implies y((exist $m in Marks with guidance = (ALIGN, $m))))
+			and (state = LOWERING implies y((exist $m in Marks with guidance = (LOWER, $m)))))
 	LTLSPEC ltlSpec_placed:
 		g(
 			state = PLACED
@@ -122,6 +126,7 @@ definitions:
 			ag(
 				unseen = $n and not (isNewGuidance and second(guidance) != HIDDEN)
 				implies ax(unseen = $n + 1 or $n = patience)))
+	CTLSPEC ctlSpec_seen: ag(isNewGuidance and second(guidance) != HIDDEN implies ax(unseen = 0))
 	CTLSPEC ctlSpec_works:
 		contact != OVERLOAD and not isNewContact
 		implies ef(state = ALIGNED) and ef(state = PLACED) and ef(state = RETRACTED)
