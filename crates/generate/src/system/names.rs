@@ -5,11 +5,15 @@ use chart::system::{Channel, System};
 
 use crate::names::{is_reserved, snake};
 
-/// `camera_to_vs` as `CameraToVs`, `visionSystem` as `VisionSystem`.
+/// The types of the generated program itself, which no component and no channel may take.
+const OWN_TYPES: &[&str] =
+    &["Base", "C", "Cycle", "Hooks", "In", "Observer", "Out", "Phases", "Seen", "Side", "System"];
+
+/// `camera_to_vs` as `CameraToVs`, `visionSystem` as `VisionSystem`, and `system` as `System_`.
 pub(super) fn pascal(name: &str) -> String {
     let parts = name.split('_').filter(|part| !part.is_empty());
     let joined: String = parts.map(|part| part[..1].to_uppercase() + &part[1..]).collect();
-    member(&joined)
+    if OWN_TYPES.contains(&joined.as_str()) { format!("{joined}_") } else { member(&joined) }
 }
 
 /// The type of a drawn channel's data: its name, or `PositionDatum` where a domain of the data or a component makes the type `Position`.
@@ -50,6 +54,9 @@ mod tests {
         check("setPoint", "SetPoint", "set_point");
         check("visionSystem", "VisionSystem", "vision_system");
         check("grab", "Grab", "grab");
+        // A type of the program itself.
+        check("c", "C_", "c");
+        check("phases", "Phases_", "phases");
         // A macro of the headers that the program includes.
         check("EIO", "EIO_", "eio");
         assert_eq!((hook("beforeSensors").as_str(), hook("safeStop").as_str()), ("before_sensors_", "safe_stop_"));
