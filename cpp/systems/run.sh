@@ -54,7 +54,7 @@ expect 0 sh viewers/run.sh "$out/controller.mcap"
 compile_by clang++ "$out/controller" -Wsign-conversion -fsyntax-only
 
 # Tasks that data wake, behind writings of several ticks: the program wakes when the model does.
-for form in "Classifier" "Conveyor" "Conveyor --wait-free"; do
+for form in "Classifier" "Handover" "Conveyor" "Conveyor --wait-free"; do
     name=${form% *}
     folder=$out/$(echo "$form" | tr -d ' ')
     expect 0 "$groundstate" generate cpp ${form#"$name"} $name.chart -o "$folder"

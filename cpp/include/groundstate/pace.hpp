@@ -7,7 +7,10 @@
 //     0    the step: phases begin, granted locks are entered, indexes are swapped, data are read
 //     1/4  what is released in this step                       3/8  an asynchronous task looks whether data are there
 //     7/16 a slave's writing that begins is there to be awaited
-//     1/2  locks asked for in this step, the more urgent first       5/8  messages are taken   3/4  sent, and stored
+//     5/8  messages are taken                                  3/4  messages are sent, and values stored
+//     13/16 locks asked for in this step, the more urgent first
+//
+// Locks come last, since a task that hands something over may begin its next cycle, and ask, in the same step.
 //
 // With `Pace::drawn` each phase lasts a part of its modelled time, drawn from a seed, or occasionally far longer; locks
 // take no time. It is for trying other orders of events. INVARIANT: the program sees nothing of this but the passing of
@@ -60,7 +63,7 @@ class TaskPace<VirtualClock> {
     bool is_modelled() const noexcept { return pacing_.pace == Pace::modelled; }
 
     /// Before a lock is asked for; the more urgent of two goes first.
-    void ask(bool urgent) noexcept { reach(sixteenths(), urgent ? 8 : 9); }
+    void ask(bool urgent) noexcept { reach(sixteenths(), urgent ? 13 : 14); }
     /// After the lock was granted, or given up: the others see that in the next step.
     void enter() noexcept { reach(16, 0); }
     /// The index section of a master is a step.

@@ -36,7 +36,8 @@ class PeriodicTask {
           step_{std::move(step)},
           grain_ns_{schedule.grain_ns},
           counts_lateness_{schedule.counts_lateness},
-          watchdog_{allowed_ns() - period.elaboration_ns, schedule.grain_ns},
+          // Where the work does not fit into the period, nothing is waited for.
+          watchdog_{std::max<std::int64_t>(allowed_ns() - period.elaboration_ns, 0), schedule.grain_ns},
           thread_{clock, std::move(name), schedule} {
         assert(period.period_ns > 0 && period.elaboration_ns >= 0 && period.offset_ns >= 0);
     }

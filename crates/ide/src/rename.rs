@@ -256,16 +256,16 @@ fn proved<F: Files>(
     Ok(())
 }
 
-/// The charts and specifications whose models read a file that is edited, and the charts beside it, of whose components it may be a
-/// machine. What is built of a chart names what its imports declare, a machine's functions have the names of channels, and a pattern of a report
-/// puts names together, so they may rely on a name that they do not write.
+/// The charts and specifications whose models read a file that is edited, and those beside it: it may be the machine of a component. What is
+/// built of a chart names what its imports declare, a machine's functions have the names of channels, properties of a system put the names of
+/// components and functions together, as a pattern of a report does. So they may rely on a name that they do not write.
 fn built_over<F: Files>(project: &mut Project<F>, edits: &Edits) -> Vec<String> {
     let mut built = project.all_files();
     built.retain(|file| matches!(Kind::of(Path::new(file)), Some(Kind::Chart | Kind::Report | Kind::Verification)));
     let folder = |file: &str| Path::new(file).parent().map(Path::to_path_buf);
     let edited: Vec<_> = edits.keys().map(|file| folder(file)).collect();
     built.retain(|file| {
-        let is_beside = Kind::of(Path::new(file)) == Some(Kind::Chart) && edited.contains(&folder(file));
+        let is_beside = edited.contains(&folder(file));
         let sources = project.analysis(file).map(|analysis| analysis.sources.clone()).unwrap_or_default();
         is_beside || sources.iter().any(|(_, source)| edits.contains_key(&source.name))
     });
