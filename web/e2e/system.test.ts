@@ -1,6 +1,6 @@
 // Systems in the browser: properties set in the picture, times that follow, C++ beside the model, a program that is built and runs.
 
-import { existsSync, readFileSync, writeFileSync } from 'node:fs'
+import { existsSync, readFileSync, renameSync, rmSync, writeFileSync } from 'node:fs'
 import { join } from 'node:path'
 
 import type { Browser, Page } from 'playwright-core'
@@ -67,6 +67,9 @@ const panel = async (name: string): Promise<void> => {
   const tab = page.getByRole('tab', { name, exact: true })
   if ((await tab.getAttribute('aria-selected')) !== 'true') await tab.click()
 }
+
+// How programs are compiled here: not slower than need be.
+process.env['CMAKE_BUILD_TYPE'] ??= 'Debug'
 
 beforeAll(async () => {
   studio = await served(copied('examples', 'library'))
@@ -209,6 +212,46 @@ test('a program is built and runs, lit on the chart, with the verdict of conform
   await shape(page, 'control').click()
   await page.locator('.code-text .cm-ran-next').first().waitFor()
   await shot(page, 'code-system')
+}, 300_000)
+
+async function program(seconds: number): Promise<string> {
+  await page.getByLabel('More to do with this file').click()
+  await page.getByRole('menuitem', { name: 'Build and run' }).click()
+  await page.locator('.program-now').waitFor({ timeout: 300_000 })
+  await until(async () => (await page.locator('.row-lit').count()) > 0, () => 'a lit phase', 400)
+  await shot(page, 'program-own')
+  const verdict = page.locator('.program-verdict')
+  await verdict.waitFor({ timeout: seconds * 1000 + 60_000 })
+  return (await verdict.textContent()) ?? ''
+}
+
+test('an example runs as the program that lies beside its chart, with its own hooks', async () => {
+  await open('examples/sorting_cell/SortingCell.chart')
+  await shape(page, 'sequencer').waitFor()
+  expect(await program(5)).toMatch(/conforms by the order of events: \d+ events/)
+  // What the example's belt says at the end of its own program.
+  await page.getByText(/\d+ pushes, \d+ of them wrong, \d+ after the stop; \d+ parcels/).waitFor()
+  expect(existsSync(path('examples/sorting_cell/SortingCell.generated'))).toBe(false)
+  await panel('C++')
+  await page.locator('.code-panel').getByText('belt.hpp').first().waitFor()
+}, 420_000)
+
+test('a program of the user is built where it lies, under its own name, and its files stay', async () => {
+  await axis()
+  await page.getByLabel('More to do with this file').click()
+  // The file that is written last: it may be there from before.
+  rmSync(path('Axis.generated/control.hpp'), { force: true })
+  await page.getByRole('menuitem', { name: 'Generate C++' }).click()
+  await until(() => file('Axis.generated/control.hpp').includes('}  // namespace axis'), () => 'the C++')
+  // The user moves the program to a place of their own, calls it otherwise, and it tells of itself.
+  renameSync(path('Axis.generated'), path('bench'))
+  writeFileSync(path('bench/CMakeLists.txt'), file('bench/CMakeLists.txt').replace('project(axis', 'project(bench').replace(/(add_executable|target_\w+)\(axis/g, '$1(bench'))
+  writeFileSync(path('bench/main.cpp'), file('bench/main.cpp').replace('int main(', '#include <cstdio>\nint main(').replace('words) {', 'words) {\n    std::puts("the bench of the user");'))
+  const own = file('bench/control.hpp')
+  expect(await program(5)).toMatch(/conforms by the order of events: \d+ events/)
+  await page.getByText('the bench of the user').waitFor()
+  expect(existsSync(path('Axis.generated'))).toBe(false)
+  expect(file('bench/control.hpp')).toBe(own)
 }, 300_000)
 
 const GAUGE = `asm Gauge

@@ -176,7 +176,7 @@ fn of_chart(bytes: &[u8]) -> usize {
     let parse = syntax::parse_chart(FileId(0), &text);
     let _ = draw::place(chart, &parse, &text, |_| true);
     if let Some(system) = &chart.system {
-        stages += generated(chart, system, &loaded.sources);
+        stages += generated(system, &loaded.sources);
     }
     let known = match Known::imported(chart, "Imports.asm", &mut Models::default()) {
         Ok(known) => known,
@@ -218,7 +218,7 @@ fn drawn(chart: &Chart) -> usize {
     stages
 }
 
-fn generated(chart: &Chart, system: &System, sources: &Sources) -> usize {
+fn generated(system: &System, sources: &Sources) -> usize {
     let faults = generate::system::ungenerated(system);
     told(sources, &faults);
     if !faults.is_empty() {
@@ -226,7 +226,7 @@ fn generated(chart: &Chart, system: &System, sources: &Sources) -> usize {
     }
     for wait_free in [false, true] {
         let form = generate::system::Form { wait_free, ..Default::default() };
-        generate::system::generate(chart, system, "Model.chart", &form);
+        generate::system::generate(system, "Model.chart", &form);
     }
     1
 }

@@ -1,6 +1,6 @@
 //! The C++ beside a chart or a model: its files, which lines stand for which places, and whether it was made from the texts as they are.
 //!
-//! In: the path of a chart or a model; the name of a file in its `STEM.generated`. Out: a list with the source map, or a text; nothing is
+//! In: the path of a chart or a model; the name of a file in the folder of its C++. Out: a list with the source map, or a text; nothing is
 //! written. INVARIANT: nothing outside that folder is read, also through links; C++ is only called current if every text that it was
 //! made from is known and the same. LIMIT: files, and folders in folders.
 
@@ -10,6 +10,7 @@ use groundstate::{Kind, text_fingerprint};
 use serde_json::{Value, json};
 
 use crate::folder::Folder;
+use crate::home::Home;
 
 /// LIMIT: files that are listed.
 const FILES: usize = 400;
@@ -18,18 +19,6 @@ const DEEP: usize = 4;
 /// What CMake builds, and what every program includes.
 const NOT_SHOWN: [&str; 3] = ["build", "runtime", "generated/include"];
 
-/// The folder of what was generated from a file, as browsers name it.
-///
-/// # Errors
-/// It is neither a chart nor a model; a sentence.
-fn folder_of(path: &str) -> Result<String, String> {
-    let kind = Kind::of(Path::new(path));
-    match (kind, path.rsplit_once('.')) {
-        (Some(Kind::Chart | Kind::Model), Some((stem, _))) => Ok(format!("{stem}.generated")),
-        _ => Err(format!("`{}` is neither a chart nor a model", path.escape_debug())),
-    }
-}
-
 fn is_shown(name: &str) -> bool {
     let inside = |folder: &str| name == folder || name.starts_with(&format!("{folder}/"));
     let last = name.rsplit('/').next().unwrap_or(name);
@@ -37,12 +26,12 @@ fn is_shown(name: &str) -> bool {
     is_code && !NOT_SHOWN.iter().any(|folder| inside(folder))
 }
 
-/// Whether C++ and what is built of it may be written: no link of the folder leads out of the project.
+/// Whether C++ and what is built of it may be written: no link of its folder leads out of the project.
 ///
 /// # Errors
-/// One does, or the path is neither a chart nor a model; a sentence.
-pub fn may_be_written(folder: &Folder, path: &str) -> Result<(), String> {
-    let home = folder_of(path)?;
+/// One does; a sentence.
+pub fn may_be_written(folder: &Folder, home: &Home) -> Result<(), String> {
+    let home = &home.path;
     let parts = ["", "/generated", "/generated/machines", "/generated/include", "/runtime", "/build"];
     parts.iter().try_for_each(|part| folder.place(&format!("{home}{part}")).map(|_| ()))
 }
@@ -52,7 +41,7 @@ pub fn may_be_written(folder: &Folder, path: &str) -> Result<(), String> {
 /// # Errors
 /// There is no such file; a sentence.
 pub fn text(folder: &Folder, path: &str, file: &str) -> Result<Value, String> {
-    let home = folder_of(path)?;
+    let home = Home::of(folder, path)?.path;
     let refused = || format!("`{}` is no generated file of {path}", file.escape_debug());
     if !is_shown(file) {
         return Err(refused());
@@ -74,7 +63,7 @@ pub fn text(folder: &Folder, path: &str, file: &str) -> Result<Value, String> {
 /// # Errors
 /// The path is none of a chart or a model in the folder; a sentence.
 pub fn list(folder: &Folder, path: &str) -> Result<Value, String> {
-    let home = folder_of(path)?;
+    let home = Home::of(folder, path)?.path;
     let place = folder.place(&home)?;
     let mut found = Vec::new();
     // What a link leads to is not this folder.

@@ -189,7 +189,6 @@ pub fn words(job: &str, path: &str, options: &Value) -> Result<Vec<String>, Stri
     let mut words: Vec<String> = command.iter().map(|word| word.to_string()).collect();
     // A name that begins with `-` is a name.
     words.push(if path.is_empty() { "./".to_string() } else { format!("./{path}") });
-    let stem = path.rsplit_once('.').map_or(path, |(stem, _)| stem);
     match job {
         "verify" => {
             if let Some(seconds) = options["time"].as_u64() {
@@ -206,7 +205,6 @@ pub fn words(job: &str, path: &str, options: &Value) -> Result<Vec<String>, Stri
             words.extend(terms.take(TERMS).map(|term| format!("--where={term}")));
         }
         "test" if options["coverage"].as_bool() == Some(true) => words.push("--coverage".to_string()),
-        "generate" => words.extend(["-o".to_string(), format!("./{stem}.generated")]),
         _ => {}
     }
     // What a model imports may lie anywhere; the studio shows one folder.

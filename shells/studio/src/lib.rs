@@ -19,6 +19,7 @@ mod export;
 mod folder;
 mod generated;
 mod guard;
+mod home;
 mod inputs;
 mod job;
 mod program;

@@ -1,8 +1,9 @@
 //! From a chart to its program that runs and is compared with the model: what `groundstate` and CMake do one after the other.
 //!
-//! In: a chart with a system. Out: stages and lines as they come; while the program runs, what each task does (`followed`); at its end
-//! the verdict of `groundstate conform`, word for word. INVARIANT: a program that was stopped has no verdict. The program is of the
-//! folder's own C++, built in `STEM.generated/build`. LIMIT: seconds of the program, and how much longer it may take to end.
+//! In: a chart with a system, and the folder of its C++. Out: stages and lines as they come; while the program runs, what each task does
+//! (`followed`); at its end the verdict of `groundstate conform`, word for word. The program is built in `build` of its folder, and is the
+//! target with the name of the CMake project. INVARIANT: a program that was stopped has no verdict. LIMIT: seconds of the program, and
+//! how much longer it may take to end.
 
 use std::path::Path;
 use std::process::Command;
@@ -12,6 +13,7 @@ use groundstate::Kind;
 use serde_json::{Value, json};
 
 use crate::folder::Folder;
+use crate::home::Home;
 use crate::job::{LOOK, Process, Task, started};
 
 /// LIMIT: seconds of a program.
@@ -26,6 +28,7 @@ const TRAILING: Duration = Duration::from_secs(3);
 pub struct Plan {
     /// The chart's path without its ending, as the command line takes it.
     stem: String,
+    home: Home,
     seconds: u64,
     /// In the model's time: as fast as can be.
     is_virtual: bool,
@@ -36,14 +39,15 @@ impl Plan {
     ///
     /// # Errors
     /// There is no program of such a file; a sentence.
-    pub fn of(path: &str, options: &Value) -> Result<Plan, String> {
+    pub fn of(path: &str, home: &Home, options: &Value) -> Result<Plan, String> {
         if Kind::of(Path::new(path)) != Some(Kind::Chart) {
             return Err(format!("{path} has no program: a chart with a system has one"));
         }
         let stem = path.rsplit_once('.').map_or(path, |(stem, _)| stem);
         let seconds = options["seconds"].as_u64().unwrap_or(5).clamp(1, SECONDS);
         // A name that begins with `-` is a name.
-        Ok(Plan { stem: format!("./{stem}"), seconds, is_virtual: options["pace"] == "virtual" })
+        let is_virtual = options["pace"] == "virtual";
+        Ok(Plan { stem: format!("./{stem}"), home: home.clone(), seconds, is_virtual })
     }
 
     fn chart(&self) -> String {
@@ -51,15 +55,15 @@ impl Plan {
     }
 
     fn code(&self) -> String {
-        format!("{}.generated", self.stem)
+        format!("./{}", self.home.path)
     }
 
     fn build(&self) -> String {
-        format!("{}.generated/build", self.stem)
+        format!("./{}/build", self.home.path)
     }
 
     fn log(&self) -> String {
-        format!("{}.generated/build/run.mcap", self.stem)
+        format!("./{}/build/run.mcap", self.home.path)
     }
 }
 
@@ -73,11 +77,9 @@ fn stage(task: &Task, stage: &str) {
 
 /// Builds and runs it. Out: the code of the comparison, or of what went wrong before; none if it was stopped.
 pub fn run(task: &Task, folder: &Folder, plan: &Plan) -> Option<i32> {
-    let ours: [(&str, Vec<String>); 2] = [
-        ("model", words(&["chart", "build", &plan.chart()])),
-        ("generate", words(&["generate", "cpp", &plan.chart(), "-o", &plan.code()])),
-    ];
-    for (name, mut all) in ours {
+    let mut generate = words(&["generate", "cpp", &plan.chart()]);
+    generate.extend(plan.home.words());
+    for (name, mut all) in [("model", words(&["chart", "build", &plan.chart()])), ("generate", generate)] {
         stage(task, name);
         all.extend(words(&["--within", ".", "--format", "json"]));
         let child = started(&mut task.jobs().command(&all));
@@ -87,21 +89,13 @@ pub fn run(task: &Task, folder: &Folder, plan: &Plan) -> Option<i32> {
         }
     }
     stage(task, "compile");
-    let (code, build) = (plan.code(), plan.build());
-    for all in [vec!["-S", &code, "-B", &build], vec!["--build", &build, "--parallel", "2"]] {
-        let mut cmake = Command::new("cmake");
-        cmake.args(all);
-        let child = started(&mut task.jobs().within(cmake));
-        match told(task, child.map(|child| task.follow(child))) {
-            Some(0) => {}
-            Some(_) => return Some(2),
-            None => return None,
-        }
-    }
-    let program = match executable(folder, plan) {
-        Ok(program) => program,
+    let program = match compiled(task, folder, plan) {
+        Ok(Some(program)) => program,
+        Ok(None) => return None,
         Err(reason) => {
-            task.say(&Value::from(reason));
+            if let Some(reason) = reason {
+                task.say(&Value::from(reason));
+            }
             return Some(2);
         }
     };
@@ -195,18 +189,58 @@ fn waited(process: &mut Process) {
     }
 }
 
-/// The program that CMake has built: it is called as the header of the system.
-fn executable(folder: &Folder, plan: &Plan) -> Result<String, String> {
-    let stem = plan.stem.trim_start_matches("./");
-    let map = folder.read(&format!("{stem}.generated/generated/source-map.json"))?.unwrap_or_default();
-    let map: Value = serde_json::from_str(&map).unwrap_or_default();
-    let header = map.pointer("/lines/0/generated/file").and_then(Value::as_str).unwrap_or_default();
-    let name = header.trim_end_matches(".hpp");
-    let path = format!("{stem}.generated/build/{name}");
-    match folder.place(&path) {
-        Ok(place) if !name.is_empty() && place.is_file() => Ok(place.to_string_lossy().into_owned()),
-        _ => Err(format!("CMake has made no {path}: CMakeLists.txt of {} names the program", plan.code())),
+/// Has CMake make the program. Out: where it is; none if the tab stopped it.
+///
+/// # Errors
+/// It was not made; a sentence, if CMake did not say it.
+fn compiled(task: &Task, folder: &Folder, plan: &Plan) -> Result<Option<String>, Option<String>> {
+    let cmake = |all: &[&str]| -> Result<Option<()>, Option<String>> {
+        let mut cmake = Command::new("cmake");
+        cmake.args(all);
+        match task.follow(started(&mut task.jobs().within(cmake))?) {
+            Some(0) => Ok(Some(())),
+            Some(_) => Err(None),
+            None => Ok(None),
+        }
+    };
+    let (code, build) = (plan.code(), plan.build());
+    forget_other_places(folder, plan)?;
+    if cmake(&["-S", &code, "-B", &build])?.is_none() {
+        return Ok(None);
     }
+    let cache = folder.read(&format!("{}/build/CMakeCache.txt", plan.home.path))?.unwrap_or_default();
+    let Some(name) = project_of(&cache) else {
+        return Err(Some(format!(
+            "CMakeLists.txt of {} has no project: its name is that of the program",
+            plan.home.path
+        )));
+    };
+    if cmake(&["--build", &build, "--parallel", "2", "--target", name])?.is_none() {
+        return Ok(None);
+    }
+    let path = format!("{}/build/{name}", plan.home.path);
+    match folder.place(&path) {
+        Ok(place) if place.is_file() => Ok(Some(place.to_string_lossy().into_owned())),
+        _ => Err(Some(format!("CMake has made no {path}: there is the program looked for, with the project's name"))),
+    }
+}
+
+/// A folder that was moved or copied brings what CMake knows of its former place along; there it would refuse to build.
+fn forget_other_places(folder: &Folder, plan: &Plan) -> Result<(), String> {
+    let build = format!("{}/build", plan.home.path);
+    let file = format!("{build}/CMakeCache.txt");
+    let cache = folder.read(&file)?.unwrap_or_default();
+    let known = cache.lines().find_map(|line| line.strip_prefix("CMAKE_CACHEFILE_DIR:INTERNAL="));
+    let real = |path: &Path| std::fs::canonicalize(path).ok();
+    match known {
+        Some(known) if real(Path::new(known)) != real(&folder.place(&build)?) => removed(folder, &file),
+        _ => Ok(()),
+    }
+}
+
+/// The name of the project that a build is of.
+fn project_of(cache: &str) -> Option<&str> {
+    cache.lines().find_map(|line| line.strip_prefix("CMAKE_PROJECT_NAME:STATIC=")).filter(|name| !name.is_empty())
 }
 
 fn removed(folder: &Folder, log: &str) -> Result<(), String> {
@@ -223,13 +257,20 @@ mod tests {
 
     #[test]
     fn what_is_asked_for_is_bounded() {
-        let plan = |options: Value| Plan::of("a/-b.chart", &options).expect("it is a chart");
-        assert_eq!(plan(json!({})), Plan { stem: "./a/-b".to_string(), seconds: 5, is_virtual: false });
+        let home = Home { path: "a/arm".to_string(), is_own: true };
+        let plan = |options: Value| Plan::of("a/-b.chart", &home, &options).expect("it is a chart");
+        let like = |seconds: u64, is_virtual: bool| Plan {
+            stem: "./a/-b".to_string(),
+            home: home.clone(),
+            seconds,
+            is_virtual,
+        };
+        assert_eq!(plan(json!({})), like(5, false));
         let most = plan(json!({ "seconds": 1_000_000, "pace": "virtual", "log": "/etc/passwd" }));
-        assert_eq!(most, Plan { stem: "./a/-b".to_string(), seconds: 60, is_virtual: true });
+        assert_eq!((&most, most.log()), (&like(60, true), "./a/arm/build/run.mcap".to_string()));
         assert_eq!(plan(json!({ "seconds": 0 })).seconds, 1);
         assert_eq!(
-            Plan::of("a.asm", &json!({})),
+            Plan::of("a.asm", &home, &json!({})),
             Err("a.asm has no program: a chart with a system has one".to_string())
         );
     }
@@ -252,7 +293,8 @@ mod tests {
         };
         let jobs = Arc::new(Jobs::new(script("conform", conform), place.path().to_path_buf()));
         let program = script("program", program).to_string_lossy().into_owned();
-        let plan = Plan::of("a.chart", &json!({})).expect("it is a chart");
+        let home = Home { path: "a.generated".to_string(), is_own: false };
+        let plan = Plan::of("a.chart", &home, &json!({})).expect("it is a chart");
         let (out, mut told) = tokio::sync::mpsc::channel(100);
         let work = move |task: &Task| compared(task, &plan, &program).expect("it begins");
         let number = jobs.start_work(7, out, work).expect("it begins");

@@ -12,6 +12,7 @@ use serde_json::{Value, json};
 use tokio::sync::mpsc::Sender;
 
 use crate::folder::Folder;
+use crate::home::Home;
 use crate::program::{self, Plan};
 use crate::studio::Studio;
 use crate::tell::Out;
@@ -95,16 +96,19 @@ pub fn answer(
             if matches!(job, "build" | "generate" | "program") {
                 writable(studio)?;
             }
-            if matches!(job, "generate" | "program") {
-                generated::may_be_written(&studio.folder, path)?;
-            }
-            if job == "program" {
-                let plan = Plan::of(path, &params["options"])?;
+            let home = match job {
+                "generate" | "program" => Some(Home::of(&studio.folder, path)?),
+                _ => None,
+            };
+            home.iter().try_for_each(|home| generated::may_be_written(&studio.folder, home))?;
+            if let ("program", Some(home)) = (job, &home) {
+                let plan = Plan::of(path, home, &params["options"])?;
                 let own = Arc::clone(studio);
                 let work = move |task: &job::Task| program::run(task, &own.folder, &plan);
                 return Ok(json!({ "job": studio.jobs.start_work(tab, out.clone(), work)? }));
             }
             let mut words = job::words(job, path, &params["options"])?;
+            words.extend(home.iter().flat_map(Home::words));
             if job == "test" && Kind::of(Path::new(path)) == Some(Kind::Model) {
                 let scenarios = inputs::scenarios(&studio.folder, path)?;
                 if scenarios.is_empty() {

@@ -118,7 +118,7 @@ impl Subject {
             return Err(format!("{}: {}", self.path, fault.message));
         }
         let Generated { decided, once, .. } =
-            generate(chart, system, self.path, &Form { wait_free, namespace: None, ..Form::default() });
+            generate(system, self.path, &Form { wait_free, namespace: None, ..Form::default() });
         for (path, text) in decided.iter().chain(&once) {
             let own = self.hooks.map(|hooks| root().join(hooks).join(path)).filter(|own| own.is_file());
             let path = folder.join(path);

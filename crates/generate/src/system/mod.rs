@@ -14,7 +14,6 @@ mod names;
 mod plan;
 mod refuse;
 
-use chart::Chart;
 use chart::system::System;
 use syntax::Span;
 
@@ -35,13 +34,13 @@ pub struct Generated {
 }
 
 /// The program of a system for which [`ungenerated`] is empty. Comments call the chart `file`.
-pub fn generate(chart: &Chart, system: &System, file: &str, form: &Form) -> Generated {
+pub fn generate(system: &System, file: &str, form: &Form) -> Generated {
     let name = snake(&system.name);
     let space = form.namespace.clone().unwrap_or_else(|| name.clone());
     let header = header::header(system, file, &space, form);
     let lines = map::lines(system, &header);
     let mut once = vec![
-        ("CMakeLists.txt".to_string(), files::cmake(&chart.name, &name, !form.classes.is_empty())),
+        ("CMakeLists.txt".to_string(), files::cmake(file, &name, !form.classes.is_empty())),
         ("main.cpp".to_string(), files::main(system, &space)),
         ("data.hpp".to_string(), files::data(system, &space)),
     ];

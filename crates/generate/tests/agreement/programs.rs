@@ -18,7 +18,7 @@ fn check(chart: &str, program: &str) {
     let system = chart.system.as_ref().expect("it has a system");
     assert_eq!(ungenerated(system), []);
     let name = path.file_name().expect("it is a file").to_string_lossy();
-    for (header, text) in generate(&chart, system, &name, &Form::default()).decided {
+    for (header, text) in generate(system, &name, &Form::default()).decided {
         expect_file![format!("../../../../examples/{program}/{header}")].assert_eq(&text);
     }
 }

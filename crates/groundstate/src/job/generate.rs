@@ -119,8 +119,7 @@ pub fn generate_system(
             return Err(NotGenerated::Refused(faults));
         }
         go_on(&port)?;
-        let generate::system::Generated { mut decided, once, lines } =
-            generate::system::generate(&chart, system, &file, &form);
+        let generate::system::Generated { mut decided, once, lines } = generate::system::generate(system, &file, &form);
         let header = decided.first().map(|(path, _)| path.trim_start_matches("generated/").to_string());
         let header = header.unwrap_or_default();
         let lines: Vec<Value> =

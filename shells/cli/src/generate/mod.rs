@@ -47,6 +47,9 @@ pub struct Cpp {
     /// For a chart: the namespace of the classes. Default: from the system's name
     #[arg(long, value_name = "NAME")]
     namespace: Option<String>,
+    /// For a chart: write `generated/` alone, and none of your own files, also if they are missing
+    #[arg(long)]
+    only_generated: bool,
 }
 
 fn capacity(text: &str) -> Result<(String, u32), String> {
@@ -71,8 +74,8 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     if chart && arguments.bare {
         return Err(Failure::usage("--bare is for models: a system's tasks are threads"));
     }
-    if !chart && (arguments.wait_free || arguments.namespace.is_some()) {
-        return Err(Failure::usage("--wait-free and --namespace are for charts with a system"));
+    if !chart && (arguments.wait_free || arguments.namespace.is_some() || arguments.only_generated) {
+        return Err(Failure::usage("--wait-free, --namespace and --only-generated are for charts with a system"));
     }
     if chart { system::run(shell, arguments) } else { model::run(shell, arguments) }
 }

@@ -56,7 +56,7 @@ pub fn run(shell: &mut Shell, arguments: &Cpp) -> Result<Exit, Failure> {
         write(shell, &arguments.output.join(path), text)?;
     }
     let mut kept = Vec::new();
-    for (path, text) in &once {
+    for (path, text) in once.iter().filter(|_| !arguments.only_generated) {
         if arguments.output.join(path).exists() {
             kept.push(path.as_str());
         } else {

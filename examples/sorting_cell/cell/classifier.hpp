@@ -1,0 +1,10 @@
+// The classifier: what its machine decides.
+#pragma once
+
+#include "generated/sorting_cell_machines.hpp"
+
+namespace sorting_cell {
+
+class ClassifierHooks final : public ClassifierMachine {};
+
+}  // namespace sorting_cell
