@@ -153,6 +153,8 @@ export class Studio {
   private readonly told = new Map<string, Fault[]>()
   private found = new Map<string, Fault[]>()
   private notices = 0
+  // Who waits for a language session to begin.
+  private readonly beginning = new Set<() => void>()
   private readonly transport: Transport
 
   constructor(
@@ -187,7 +189,7 @@ export class Studio {
     const until = performance.now() + PATIENCE_MS
     for (let tries = 0; ; tries++) {
       this.client.sync()
-      await this.client.initializing
+      await this.begun()
       try {
         return await this.server.request<Result>(method, params)
       } catch (error) {
@@ -197,11 +199,23 @@ export class Studio {
     }
   }
 
+  // The language session. Of one that never begins, because the connection breaks before, nothing is heard: whoever waits is told.
+  private begun(): Promise<unknown> {
+    if (this.server.online !== 'open') return Promise.reject(new Error('connection lost'))
+    return new Promise((done, failed) => {
+      const lost = (): void => failed(new Error('connection lost'))
+      this.beginning.add(lost)
+      this.client.initializing.then(done, failed).finally(() => this.beginning.delete(lost))
+    })
+  }
+
   private connection(online: StudioState['online']): void {
     this.store.set({ online })
     if (online === 'closed') {
       for (const doc of this.docs.values()) doc.event({ kind: 'offline' })
       this.client.disconnect()
+      for (const lost of this.beginning) lost()
+      this.beginning.clear()
       this.runner.lost()
       this.jobs.lost()
     }
