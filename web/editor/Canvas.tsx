@@ -118,7 +118,11 @@ function Shown({ studio, chart, drawing }: { studio: Studio; chart: Chart; drawi
 
   const acts = useMemo<Acts>(
     () => ({
-      connect: begin,
+      connect: (id, port, event) => {
+        // As a shape does that is clicked: keys are meant for the picture from now on.
+        canvas.current?.focus({ preventScroll: true })
+        begin(id, port, event)
+      },
       commit: (id, text) => {
         setEditing(null)
         void chart.operate({ kind: 'text', id, text }, { select: false })
