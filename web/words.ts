@@ -220,6 +220,18 @@ export const words = {
     fold: 'Fold the properties',
     unfold: 'Unfold the properties',
   },
+  composite: {
+    history: 'Entered where it was left',
+    remembers: 'Remembered in',
+    remembersNone: 'a function that is made',
+    doings: 'On entering and leaving',
+    when: { entry: 'entry', exit: 'exit' } as Record<'entry' | 'exit', string>,
+    moment: 'When',
+    newText: 'What is done',
+    newHint: 'Text',
+    add: 'Add what is done then',
+    remove: (name: string) => `Remove ${name}`,
+  },
   problems: {
     none: 'No problems.',
     count: (count: number) => (count === 1 ? '1 problem' : `${count} problems`),

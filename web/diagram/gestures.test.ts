@@ -76,6 +76,28 @@ test('what is copied is pasted with the arrows between', () => {
   expect(copied(machine, ['enter'])).toBeNull()
 })
 
+test('a composite state is copied with what it holds', () => {
+  const composite = { history: null, doings: [], source: 'composite state working ...' }
+  const frame = { ...box('working', 'composite', 0, 0, 300, 300), composite }
+  const inner = { ...box('inner', 'composite', 20, 100, 100, 100), composite: { ...composite, source: '...' }, within: 'working' }
+  const deep = { ...box('deep', 'circle', 40, 120, 40, 40), within: 'inner' }
+  const begun = { ...box('begun', 'circle', 200, 100, 40, 40), within: 'working' }
+  const free = box('free', 'circle', 400, 100, 40, 40)
+  const machine = drawing([frame, inner, deep, begun, free], [line(0, 4), line(2, 3), line(3, 1)])
+  const operation = pasted(copied(machine, ['working', 'deep'])!, [1120, 1130])
+  expect(operation).toEqual({
+    kind: 'paste',
+    shapes: [],
+    composites: [{ id: 'working', source: composite.source, places: { deep: [1040, 1140], begun: [1200, 1120] } }],
+    arrows: [
+      { from: 'deep', branch: null, to: 'begun' },
+      { from: 'begun', branch: null, to: 'inner' },
+    ],
+  })
+  const whole = pasted(copied(machine, ['free', 'inner'])!, null)
+  expect(whole).toMatchObject({ shapes: [{ id: 'free', at: [980, 120] }], composites: [{ id: 'inner', places: { deep: [620, 140] } }], arrows: [] })
+})
+
 test('shapes are aligned and distributed', () => {
   const rects = new Map([
     ['a', { x: 0, y: 0, width: 10, height: 10 }],

@@ -67,7 +67,7 @@ export function kept(drawing: Drawing, operation: Operation): { places?: Record<
 
 const SHAPES: Record<Figure, Shape | null> = {
   circle: 'state',
-  composite: null,
+  composite: 'composite',
   hexagon: 'guard',
   rectangle: 'action',
   block: 'instance',

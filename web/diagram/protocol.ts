@@ -106,9 +106,27 @@ export interface Box {
   of: string | null
   // The composite state that it stands in.
   within?: string | null
+  // Of a composite state.
+  composite?: CompositeText | null
   opens: null | { uri: string; name: string }
   range: Range | null
   nameRange: Range | null
+}
+
+// What is done whenever a composite state is entered or left.
+export interface Doing {
+  id: string
+  when: 'entry' | 'exit'
+  text: string
+  link: string | null
+}
+
+export interface CompositeText {
+  // It is entered where it was left; a location of the model may remember that.
+  history: null | { link: string | null }
+  doings: Doing[]
+  // Its declaration, as it is written.
+  source: string
 }
 
 export type Branch = 'yes' | 'no' | null
@@ -259,6 +277,13 @@ export interface PastedShape {
   at: [number, number]
 }
 
+// A composite state with all that it holds; places are those of the shapes in it.
+export interface PastedComposite {
+  id: string
+  source: string
+  places: Record<string, [number, number]>
+}
+
 export type Operation =
   | { kind: 'move'; places: Record<string, [number, number]> }
   | { kind: 'add'; shape: Shape; at: [number, number]; text?: string; of?: string; from?: string; to?: string }
@@ -274,7 +299,9 @@ export type Operation =
   | { kind: 'nest'; ids: string[]; into: string | null; places?: Record<string, [number, number]> }
   | { kind: 'machine'; name: string; pattern: boolean; title: string }
   | { kind: 'layout' }
-  | { kind: 'paste'; shapes: PastedShape[]; arrows: Arrow[] }
+  | { kind: 'history'; id: string; history: null | { link: string | null } }
+  | { kind: 'addDoing'; id: string; when: Doing['when']; text: string | null }
+  | { kind: 'paste'; shapes: PastedShape[]; composites: PastedComposite[]; arrows: Arrow[] }
   | { kind: 'set'; id: string; property: PropertyName; at?: number; value: string | null }
   | { kind: 'addPhase'; id: string; verb: 'read' | 'elaborate' | 'write'; subject: string }
   | { kind: 'removePhase'; id: string; at: number }

@@ -493,3 +493,80 @@ test('a shape is put into a composite state by dragging, taken out by choice, an
   await has('Carrier.chart', /composite state working1?\w*\n\t\tinitial state begun\n\tendstate/)
   await shot(page, 'composite-drawn')
 })
+
+const PRESS = `chart Press
+
+machine press "Press"
+	control mode
+	initial state idle "Idle"
+	composite state working "Working" // while it works
+		initial state lowering "Lowering"
+		state raising "Raising"
+		lowering -> raising
+	endstate
+	idle -> working
+endmachine
+
+machine other "Other"
+	control phase
+	initial state rest "Rest"
+endmachine
+`
+
+test('a composite state remembers, and does something on entering and leaving, by its properties', async () => {
+  writeFileSync(path('Press.chart'), PRESS)
+  await open('Press.chart')
+  await shape(page, 'lowering').waitFor()
+  await page.locator('.cm-line', { hasText: 'composite state working' }).click()
+  await page.locator('.inspector h2', { hasText: 'Composite state' }).waitFor()
+  const fields = page.locator('.inspector')
+  await fields.getByRole('switch', { name: 'Entered where it was left' }).click()
+  await has('Press.chart', '// while it works\n\t\thistory\n\t\tinitial state lowering')
+  await fields.locator('input[name=history]').fill('before')
+  await fields.locator('input[name=history]').press('Enter')
+  await has('Press.chart', '\t\thistory {before}\n')
+  await fields.getByLabel('What is done', { exact: true }).fill('LAMP ON')
+  await fields.getByLabel('What is done', { exact: true }).press('Enter')
+  await has('Press.chart', '\t\thistory {before}\n\t\tentry lampOn "LAMP ON"\n')
+  await fields.getByLabel('When', { exact: true }).selectOption('exit')
+  await fields.getByLabel('What is done', { exact: true }).fill('LAMP OFF')
+  await fields.getByLabel('What is done', { exact: true }).press('Enter')
+  await has('Press.chart', '\t\tentry lampOn "LAMP ON"\n\t\texit lampOff "LAMP OFF"\n\t\tinitial')
+  await fields.locator('input[name="link-lampOff"]').fill('lamp := false')
+  await fields.locator('input[name="link-lampOff"]').press('Enter')
+  await has('Press.chart', '\t\texit lampOff "LAMP OFF" {lamp := false}\n')
+  await page.locator('.react-flow__node[data-id="working"]', { hasText: 'exit / LAMP OFF' }).waitFor()
+  await shot(page, 'composite-properties')
+  // What the grammar has no word for is refused at its field.
+  await fields.locator('input[name="link-lampOff"]').fill('} state x {')
+  await fields.locator('input[name="link-lampOff"]').press('Enter')
+  await fields.locator('.field-fault').waitFor()
+  await fields.getByRole('button', { name: 'Remove lampOff' }).click()
+  await until(() => !file('Press.chart').includes('lampOff'), 'no exit')
+  await fields.getByRole('switch', { name: 'Entered where it was left' }).click()
+  await until(() => !file('Press.chart').includes('history'), 'no history')
+  await fields.locator('input[name=name]').fill('busy')
+  await fields.locator('input[name=name]').press('Enter')
+  await has('Press.chart', 'idle -> busy')
+  expect(file('Press.chart')).toContain('\tcomposite state busy "Working" // while it works\n\t\tentry lampOn "LAMP ON"\n')
+})
+
+test('a composite state is copied with all that it holds, beside it and into another machine', async () => {
+  writeFileSync(path('Press.chart'), PRESS)
+  await open('Press.chart')
+  await shape(page, 'lowering').waitFor()
+  await page.locator('.cm-line', { hasText: 'composite state working' }).click()
+  await page.locator('.inspector h2', { hasText: 'Composite state' }).waitFor()
+  await page.locator('.canvas').focus()
+  await page.keyboard.press('Control+d')
+  await has('Press.chart', '\tcomposite state working2 "Working" // while it works\n\t\tinitial state lowering2 "Lowering"\n\t\tstate raising2 "Raising"\n\t\tlowering2 -> raising2\n\tendstate\n')
+  await shape(page, 'raising2').waitFor()
+  await shot(page, 'composite-copied')
+  await page.keyboard.press('Control+c')
+  await page.getByRole('tab', { name: 'Other' }).click()
+  await shape(page, 'rest').waitFor()
+  await page.locator('.canvas').focus()
+  await page.keyboard.press('Control+v')
+  await until(() => (/machine other[^]*composite state working2 "Working"[^]*lowering2 -> raising2/).test(file('Press.chart')), () => file('Press.chart'))
+  await shape(page, 'lowering2').waitFor()
+})

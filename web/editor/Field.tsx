@@ -1,4 +1,4 @@
-// A field with its label: committed by Enter or by leaving it.
+// A field with its label: committed by Enter or by leaving it; and a switch.
 //
 // In: a value. Out: what was typed instead. A commit that is refused puts the value back.
 
@@ -53,5 +53,16 @@ export function TextField({ name, label, value, placeholder, mono, readOnly, lis
         }}
       />
     </form>
+  )
+}
+
+export function Switch({ label, on, disabled, flip }: { label: string; on: boolean; disabled: boolean; flip: () => void }): ReactNode {
+  return (
+    <button type="button" role="switch" aria-checked={on} className="switch" disabled={disabled} onClick={flip}>
+      <span>{label}</span>
+      <span className="track" aria-hidden="true">
+        <span className="thumb" />
+      </span>
+    </button>
   )
 }

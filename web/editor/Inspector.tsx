@@ -9,7 +9,8 @@ import { faultsOn } from '../diagram/pick'
 import type { Box, Drawing } from '../diagram/protocol'
 import { words } from '../words'
 import type { Chart } from './chart'
-import { TextField } from './Field'
+import { CompositeFields } from './CompositeFields'
+import { Switch, TextField } from './Field'
 import { Icon } from './icons'
 import { deleteSelected } from './keys'
 import { linkOffers } from './offers'
@@ -100,7 +101,7 @@ function OneBox({ studio, chart, drawing, box, naming }: OneBoxProps): ReactNode
   const term = breakTerm(drawing, box.id)
   const ends = box.figure === 'enter' || box.figure === 'exit'
   const system = drawing.kind === 'system'
-  const links = !system && !ends
+  const links = !system && !ends && box.figure !== 'composite'
   const rename = async (name: string): Promise<boolean> => {
     naming(name)
     return (await chart.operate({ kind: 'rename', id: box.id, name })) !== null
@@ -130,7 +131,7 @@ function OneBox({ studio, chart, drawing, box, naming }: OneBoxProps): ReactNode
       {links && (
         <LinkField studio={studio} chart={chart} drawing={drawing} box={box} readOnly={readOnly} commit={(link) => set({ kind: 'link', id: box.id, link: link === '' ? null : link })} />
       )}
-      {box.figure === 'circle' && (
+      {(box.figure === 'circle' || box.figure === 'composite') && (
         <Switch
           label={words.inspector.initial}
           on={box.initial}
@@ -141,6 +142,7 @@ function OneBox({ studio, chart, drawing, box, naming }: OneBoxProps): ReactNode
       {!system && !ends && box.nameRange && (box.within || frames(drawing, box).length > 0) && (
         <Within chart={chart} drawing={drawing} box={box} readOnly={readOnly} />
       )}
+      {box.composite && <CompositeFields chart={chart} id={box.id} composite={box.composite} />}
       {(box.figure === 'hexagon' || box.figure === 'rectangle') && (
         <>
           <Switch
@@ -272,16 +274,5 @@ function LinkField({ studio, chart, drawing, box, readOnly, commit }: { studio: 
         ))}
       </datalist>
     </>
-  )
-}
-
-export function Switch({ label, on, disabled, flip }: { label: string; on: boolean; disabled: boolean; flip: () => void }): ReactNode {
-  return (
-    <button type="button" role="switch" aria-checked={on} className="switch" disabled={disabled} onClick={flip}>
-      <span>{label}</span>
-      <span className="track" aria-hidden="true">
-        <span className="thumb" />
-      </span>
-    </button>
   )
 }

@@ -11,6 +11,7 @@ import { words } from '../words'
 import type { Chart } from './chart'
 import { TextField } from './Field'
 import { Icon } from './icons'
+import { type Acting, Told, useOperation } from './operating'
 import { useStore } from './store'
 import type { Studio } from './studio'
 
@@ -20,32 +21,10 @@ interface Context {
   id: string
 }
 
-// Does an operation, and keeps what was said against it for the field that asked.
-function useOperation({ chart }: { chart: Chart }): { refused: ReadonlyMap<string, string>; act: (key: string, operation: Operation) => Promise<boolean> } {
-  const [refused, setRefused] = useState<ReadonlyMap<string, string>>(new Map())
-  const act = async (key: string, operation: Operation): Promise<boolean> => {
-    setRefused(new Map())
-    const done = await chart.operate(operation, { select: false, refused: (reason) => setRefused(new Map([[key, reason]])) })
-    return done !== null
-  }
-  return { refused, act }
-}
-
-type Acting = ReturnType<typeof useOperation>
-
 // What the text's faults say of a place.
 export function useFaults(studio: Studio, chart: Chart): (range: Range | null | undefined) => string | null {
   const faults = useStore(studio.store, (state) => state.faults.get(chart.doc.file.uri))
   return (range) => (range && faults ? (faultsAt(faults, range)[0]?.message ?? null) : null)
-}
-
-function Told({ reason }: { reason: string | null }): ReactNode {
-  if (reason === null) return null
-  return (
-    <p className="field-fault" role="alert">
-      {reason}
-    </p>
-  )
 }
 
 interface PropertyFieldProps extends Context {

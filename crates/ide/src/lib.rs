@@ -29,7 +29,7 @@ mod tokens;
 pub use analysis::{Analysis, Place, Role, Symbol};
 pub use calls::{Called, callees, callers};
 pub use complete::{Completion, Item, ItemKind, completion};
-pub use diagram::{Centre, Drawn, Fresh, FreshKind, Joint, Operation, Property, drawn};
+pub use diagram::{Centre, Copied, Drawn, Fresh, FreshKind, Joint, Moment, Operation, Property, drawn};
 pub use fix::{Fix, fixes};
 pub use hint::{Action, Hint, Lens, hints, lenses};
 pub use hover::{Hover, hover};

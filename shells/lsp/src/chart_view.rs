@@ -16,6 +16,7 @@ use syntax::ast::{AstNode, ChartFile, Shape};
 use syntax::{FileId, Span, parse_chart};
 
 use crate::answer::Answers;
+use crate::composite_view;
 use crate::location::uri_of;
 use crate::route::{Refused, subject};
 
@@ -63,7 +64,7 @@ fn picture(answers: &mut Answers, params: &Value) -> Result<Value, Refused> {
     let loaded = answers.project.chart(&path).map_err(failed)?;
     let text = answers.project.text(&path).map_err(|absent| failed(absent.told(&path)))?.text;
     let parse = parse_chart(FileId(0), &text);
-    let declared = ChartFile::cast(parse.syntax()).map(|file| Declared::of(&file)).unwrap_or_default();
+    let declared = ChartFile::cast(parse.syntax()).map(|file| Declared::of(&file, &text)).unwrap_or_default();
     let systems = crate::system_view::systems(answers, &path, &parse);
     let mut view = View { answers, path: &path, loaded: &loaded, declared: &declared };
     let mut drawn = Vec::new();
@@ -100,28 +101,37 @@ struct Declaration {
     link: Option<String>,
     /// The composite state that it stands in.
     within: Option<String>,
+    /// What a composite state has of its own.
+    composite: Value,
+}
+
+/// The bytes of what a node says.
+fn bytes(node: &syntax::SyntaxNode) -> (u32, u32) {
+    let words = node.descendants_with_tokens().filter_map(|element| element.into_token());
+    let words: Vec<_> = words.filter(|token| !token.kind().is_trivia()).collect();
+    let start = words.first().map_or(0, |token| u32::from(token.text_range().start()));
+    (start, words.last().map_or(start, |token| u32::from(token.text_range().end())))
 }
 
 impl Declared {
-    fn of(file: &ChartFile) -> Declared {
+    fn of(file: &ChartFile, text: &str) -> Declared {
         let mut declared = Declared::default();
-        let bytes = |node: &syntax::SyntaxNode| {
-            let words = node.descendants_with_tokens().filter_map(|element| element.into_token());
-            let words: Vec<_> = words.filter(|token| !token.kind().is_trivia()).collect();
-            let start = words.first().map_or(0, |token| u32::from(token.text_range().start()));
-            (start, words.last().map_or(start, |token| u32::from(token.text_range().end())))
-        };
         for machine in file.machines() {
             let Some(name) = machine.name() else { continue };
             declared.sections.insert(name.text().to_string(), bytes(machine.syntax()));
             for shape in machine.shapes() {
                 let Some(own) = shape.name() else { continue };
-                let link = shape.link().map(|link| link.syntax().text().to_string());
-                let link =
-                    link.map(|link| link.trim().trim_start_matches('{').trim_end_matches('}').trim().to_string());
+                let link = shape.link().as_ref().map(composite_view::told);
+                let composite = match &shape {
+                    Shape::Composite(state) => {
+                        let (start, end) = bytes(state.syntax());
+                        composite_view::of(state, text.get(start as usize..end as usize).unwrap_or_default())
+                    }
+                    _ => Value::Null,
+                };
                 let within = shape.around().and_then(|around| Shape::Composite(around).name());
                 let within = within.map(|name| name.text().to_string());
-                let one = Declaration { whole: bytes(shape.syntax()), text: shape.text(), link, within };
+                let one = Declaration { whole: bytes(shape.syntax()), text: shape.text(), link, within, composite };
                 declared.shapes.insert((name.text().to_string(), own.text().to_string()), one);
             }
         }
@@ -253,6 +263,7 @@ impl View<'_> {
             placed.details.iter().map(|detail| json!({ "id": detail.id, "text": detail.text, "right": detail.right }));
         let details: Vec<Value> = details.collect();
         let range = own.as_ref().map_or(Value::Null, |own| self.range(own.whole));
+        let composite = own.as_ref().map_or(Value::Null, |own| own.composite.clone());
         let name = name.map_or(Value::Null, |span| self.of_span(span));
         json!({
             "id": placed.id,
@@ -267,6 +278,7 @@ impl View<'_> {
             "refine": refinement.map(|refinement| json!({ "by": refinement.by })),
             "of": of,
             "within": within,
+            "composite": composite,
             "opens": opens,
             "range": range,
             "nameRange": name,
@@ -385,11 +397,16 @@ fn operation_of(value: &Value) -> Result<Operation, Refused> {
         "paste" => {
             let list = |key: &str| value[key].as_array().cloned().unwrap_or_default();
             let shapes = list("shapes").iter().map(fresh).collect::<Result<_, _>>()?;
-            Operation::Paste(shapes, list("arrows").iter().map(joint).collect::<Result<_, _>>()?)
+            let composites = list("composites");
+            let copied = |one: &Value| composite_view::copied(one, centres(&one["places"])?);
+            let composites = composites.iter().map(copied).collect::<Result<_, _>>()?;
+            Operation::Paste(shapes, composites, list("arrows").iter().map(joint).collect::<Result<_, _>>()?)
         }
-        other => match crate::system_view::operation_of(value)? {
+        other => match composite_view::operation_of(value)? {
             Some(operation) => operation,
-            None => return Err(wrong(format!("`{other}` is no operation"))),
+            None => {
+                crate::system_view::operation_of(value)?.ok_or_else(|| wrong(format!("`{other}` is no operation")))?
+            }
         },
     })
 }

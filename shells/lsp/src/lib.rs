@@ -17,6 +17,7 @@ mod answer;
 mod background;
 mod capabilities;
 mod chart_view;
+mod composite_view;
 mod disk;
 mod location;
 mod pending;

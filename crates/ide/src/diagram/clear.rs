@@ -106,7 +106,7 @@ impl Work {
     }
 
     /// Takes a shape out of what is done in sequence; one alone is no sequence.
-    fn leave_sequences(&mut self, name: &str) -> Result<(), String> {
+    pub(super) fn leave_sequences(&mut self, name: &str) -> Result<(), String> {
         while let Section::Machine(machine) = self.section()?
             && let Some(sequence) = machine.sequences().find(|sequence| sequence.names().any(|own| own.text() == name))
         {

@@ -6,6 +6,8 @@
 
 mod arrow;
 mod clear;
+mod composite;
+mod copy;
 mod declare;
 mod ends;
 mod name;
@@ -63,8 +65,13 @@ pub enum Operation {
         /// What the picture shows.
         title: String,
     },
-    /// Shapes and the arrows between them, from here or from another chart. Arrows name shapes by what they are called in `Fresh::name`.
-    Paste(Vec<Fresh>, Vec<Joint>),
+    /// Shapes, composite states with all that they hold, and the arrows between them, from here or from another chart. Arrows name shapes
+    /// by what they were called: [`Fresh::name`], or the name in a source.
+    Paste(Vec<Fresh>, Vec<Copied>, Vec<Joint>),
+    /// Whether a composite state is entered where it was left, and which location remembers.
+    History(String, Option<Option<String>>),
+    /// A composite state gets an action that is done whenever it is entered, or left; with what it shows.
+    AddDoing(String, Moment, Option<String>),
     /// A property of a part of a system, or of the system itself; without a text it goes, if it may.
     Set(String, Property, Option<String>),
     /// A component gets a phase: a reading at the beginning of its cycle, another one at the end.
@@ -120,6 +127,24 @@ pub struct Fresh {
     pub of: Option<String>,
     /// Where its centre is.
     pub at: Centre,
+}
+
+/// When an action of a composite state is done.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Moment {
+    /// Whenever it is entered.
+    Entry,
+    /// Whenever it is left.
+    Exit,
+}
+
+/// A composite state that is pasted.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Copied {
+    /// Its declaration, as it is written.
+    pub source: String,
+    /// Where the shapes in it are to lie.
+    pub places: BTreeMap<String, Centre>,
 }
 
 /// What became of the text.
@@ -207,7 +232,9 @@ impl Work {
                 self.place(places)
             }
             Operation::Machine { name, is_pattern, title } => self.add_machine(name, *is_pattern, title),
-            Operation::Paste(shapes, arrows) => self.paste(shapes, arrows),
+            Operation::Paste(shapes, composites, arrows) => self.paste(shapes, composites, arrows),
+            Operation::History(name, history) => self.set_history(name, history.as_ref().map(|link| link.as_deref())),
+            Operation::AddDoing(name, moment, text) => self.add_doing(name, *moment, text.as_deref()),
             Operation::Set(name, property, value) => self.set(name, *property, value.as_deref()),
             Operation::AddPhase(name, kind, subject) => self.add_phase_of(name, *kind, subject),
             Operation::RemovePhase(name, at) => self.remove_phase(name, *at),
@@ -216,8 +243,13 @@ impl Work {
         }
     }
 
-    fn paste(&mut self, shapes: &[Fresh], arrows: &[Joint]) -> Result<(), String> {
+    fn paste(&mut self, shapes: &[Fresh], composites: &[Copied], arrows: &[Joint]) -> Result<(), String> {
         let mut names = BTreeMap::new();
+        for copied in composites {
+            let (name, inner) = self.paste_composite(copied)?;
+            names.extend(inner);
+            self.select.push(name);
+        }
         for fresh in shapes {
             let name = self.add(fresh)?;
             names.extend(fresh.name.clone().map(|old| (old, name.clone())));
@@ -259,6 +291,8 @@ impl Work {
     }
 }
 
+#[cfg(test)]
+mod composite_tests;
 #[cfg(test)]
 mod ends_tests;
 #[cfg(test)]

@@ -32,7 +32,7 @@ impl Work {
         if !is_name(to) {
             return Err(format!("`{to}` is no name: a letter first, then letters, digits and _; no word of charts"));
         }
-        if name == "enter" || !self.placeable()?.iter().any(|known| known == name) {
+        if name == "enter" || !self.shown()?.iter().any(|known| known == name) {
             return Err(format!("there is no shape `{name}`"));
         }
         if self.names()?.iter().any(|taken| taken == to) {
@@ -48,7 +48,8 @@ impl Work {
                 let mut own = tokens.filter(|token| token.kind() == GENERIC_ID);
                 // Which of the names in a node are those of parts of the drawing; links are AsmetaL.
                 let named: Vec<_> = match child.kind() {
-                    CONTROL_STATE | GUARD_SHAPE | ACTION_SHAPE | PATTERN_INSTANCE | COMPONENT | DEVICE | PLACEMENT => {
+                    CONTROL_STATE | COMPOSITE_STATE | GUARD_SHAPE | ACTION_SHAPE | ENTRY_ACTION | EXIT_ACTION
+                    | ABORT_ACTION | PATTERN_INSTANCE | COMPONENT | DEVICE | PLACEMENT => {
                         own.next().into_iter().collect()
                     }
                     PHASE if !is_elaboration(&child) => own.next().into_iter().collect(),
@@ -67,7 +68,7 @@ impl Work {
     }
 
     /// The names of all parts of the drawing.
-    fn names(&self) -> Result<Vec<String>, String> {
+    pub(super) fn names(&self) -> Result<Vec<String>, String> {
         let section = self.section()?;
         let mut names: Vec<String> = match &section {
             Section::Machine(machine) => {

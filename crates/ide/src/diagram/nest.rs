@@ -42,7 +42,7 @@ impl Work {
         Ok(())
     }
 
-    fn machine(&self) -> Result<MachineChart, String> {
+    pub(super) fn machine(&self) -> Result<MachineChart, String> {
         match self.section()? {
             Section::Machine(machine) => Ok(machine),
             Section::System(_) => Err("composite states belong to a machine".to_string()),
@@ -95,7 +95,7 @@ impl Work {
     }
 
     /// Takes a declaration out of the text. Out: its lines, without the blanks of their level.
-    fn take_out(&mut self, node: &SyntaxNode) -> String {
+    pub(super) fn take_out(&mut self, node: &SyntaxNode) -> String {
         let indent = self.indent_of(node);
         let tokens = words(node);
         let start = tokens.first().map_or(0, |token| usize::from(token.text_range().start()));
@@ -114,7 +114,7 @@ impl Work {
     }
 
     /// Puts lines into a composite state, or into the machine, behind what is declared there.
-    fn put(&mut self, into: Option<&str>, text: &str) -> Result<(), String> {
+    pub(super) fn put(&mut self, into: Option<&str>, text: &str) -> Result<(), String> {
         let machine = self.machine()?;
         let found = into.and_then(|into| machine.shapes().find(|shape| is(shape, into)));
         let target = found.map_or_else(|| machine.syntax().clone(), |shape| shape.syntax().clone());
@@ -194,6 +194,7 @@ fn kind_of(text: &str) -> SyntaxKind {
     }
 }
 
-fn initial_word(text: &str) -> bool {
+/// Whether a declaration begins with `initial`.
+pub(super) fn initial_word(text: &str) -> bool {
     text.starts_with("initial") && !text["initial".len()..].starts_with(|c: char| c.is_alphanumeric() || c == '_')
 }

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-use syntax::ast::{AstNode, Layout};
+use syntax::ast::{AstNode, Layout, Shape};
 
 use super::{Centre, Section, Work};
 
@@ -25,8 +25,21 @@ impl Work {
         self.place(&missing)
     }
 
-    /// What may stand in the layout of the drawing.
+    /// What may stand in the layout of the drawing: a frame, and what is told in it, lie where what it holds lies.
     pub(super) fn placeable(&self) -> Result<Vec<String>, String> {
+        let mut names = self.shown()?;
+        if let Section::Machine(machine) = self.section()? {
+            let framed = machine
+                .shapes()
+                .filter(|shape| matches!(shape, Shape::Composite(_) | Shape::Entry(_) | Shape::Exit(_)));
+            let framed: Vec<String> = framed.filter_map(|shape| Some(shape.name()?.text().to_string())).collect();
+            names.retain(|name| !framed.contains(name));
+        }
+        Ok(names)
+    }
+
+    /// What the drawing shows that has a name.
+    pub(super) fn shown(&self) -> Result<Vec<String>, String> {
         Ok(match self.section()? {
             Section::Machine(machine) => {
                 let shapes = machine.shapes().filter_map(|shape| shape.name()).map(|name| name.text().to_string());
