@@ -5,7 +5,7 @@
 // if places of the model are known to speak of it, and nothing of them was left out by the scenarios.
 
 import { functionOf } from '../diagram/light'
-import { type Around, type Shapes, meant, shapesAt } from '../diagram/places'
+import { type Shapes, type Speaking, meant } from '../diagram/places'
 import type { Drawing, File, Position, Range } from '../diagram/protocol'
 import { words } from '../words'
 import type { Fault } from '../diagram/pick'
@@ -67,14 +67,6 @@ interface Found {
   rule: string
 }
 
-interface SelectionRange {
-  range: Range
-  parent?: SelectionRange
-}
-
-// LIMIT: places of a model that are looked at.
-const PLACES = 4_000
-
 const before = (a: Position, b: Position): boolean => a.line < b.line || (a.line === b.line && a.character <= b.character)
 
 // A rule that never ran at all.
@@ -135,13 +127,13 @@ export class Marks {
       if (!model || !chart || !drawings || (this.changed.get(model.uri) ?? 0) >= job.began) continue
       const items = found.get(model.uri) ?? []
       const told = items.filter(({ code }) => code !== 'uncovered')
-      const shapes = await this.shapes(model, drawings, told.map(({ range }) => range.start))
+      const shapes = await this.speaking(model, chart, told.map(({ range }) => range.start))
       const faults = told.flatMap((one, index): Fault[] => {
-        const range = this.onChart(drawings, shapes[index] ?? null)
+        const range = this.onChart(drawings, shapes[index]?.shapes ?? null)
         return range ? [{ uri: chart.uri, range, message: one.message, severity: one.severity, code: one.code }] : []
       })
       if (faults.length > 0) out.set(chart.uri, faults)
-      if (covers.includes(model.uri)) of.set(chart.uri, await this.coverage(model, drawings, items.filter(({ code }) => code === 'uncovered')))
+      if (covers.includes(model.uri)) of.set(chart.uri, await this.coverage(model, chart, drawings, items.filter(({ code }) => code === 'uncovered')))
     }
     if (job.job === 'test') this.covered.set({ of })
     return out
@@ -165,15 +157,8 @@ export class Marks {
     return (id && drawing?.picture.boxes.find((box) => box.id === id)?.range) || null
   }
 
-  private async coverage(model: File, drawings: readonly Drawing[], missing: Found[]): Promise<Covered> {
-    const doc = await this.studio.document(model.uri)
-    if (!doc) return new Map()
-    const at: Position[] = []
-    doc.text.split('\n').forEach((text, line) => {
-      for (const word of text.replace(/\/\/.*$/, '').matchAll(/\b(?:if|case|rule)\b|\br_\w+\s*\[/g)) at.push({ line, character: word.index })
-    })
-    if (at.length > PLACES) return new Map()
-    const known = await this.shapes(model, drawings, at)
+  private async coverage(model: File, chart: File, drawings: readonly Drawing[], missing: Found[]): Promise<Covered> {
+    const known = await this.speaking(model, chart, null)
     const all = new Map<string, Map<string, Coverage>>()
     const note = (shapes: Shapes | null, told: string | null): void => {
       if (!shapes) return
@@ -186,36 +171,24 @@ export class Marks {
         drawing.set(id, told === null || former.told.includes(told) ? former : { covered: false, told: [...former.told, told] })
       }
     }
-    known.forEach((shapes, index) => {
+    for (const { position: here, shapes } of known) {
       note(shapes, null)
-      const here = at[index]
       // Of a rule that never ran only the name is told, and not its parts one by one.
       for (const item of missing) if (item.what === WHOLE && shapes?.rule === item.rule) note(shapes, item.message)
-      for (const item of missing) if (!isBeside(item) && here && before(item.range.start, here) && before(here, item.range.end)) note(shapes, item.message)
-    })
-    const own = await this.shapes(model, drawings, missing.map(({ range }) => range.start))
-    own.forEach((shapes, index) => {
+      for (const item of missing) if (!isBeside(item) && before(item.range.start, here) && before(here, item.range.end)) note(shapes, item.message)
+    }
+    const own = await this.speaking(model, chart, missing.map(({ range }) => range.start))
+    own.forEach(({ shapes }, index) => {
       const item = missing[index]
       if (shapes && item && speaks(item.what, shapes, drawings)) note(shapes, item.message)
     })
     return all
   }
 
-  // The shapes that places of a model speak of.
-  private async shapes(model: File, drawings: readonly Drawing[], positions: Position[]): Promise<(Shapes | null)[]> {
-    const doc = positions.length > 0 ? await this.studio.document(model.uri) : null
-    if (!doc) return []
-    const chains = await this.studio.ask<(SelectionRange | null)[] | null>('textDocument/selectionRange', { textDocument: { uri: model.uri }, positions })
-    const text = doc.text
-    return (chains ?? []).map((chain) => {
-      const around: Around[] = []
-      let inner = -1
-      for (let part: SelectionRange | undefined | null = chain; part; part = part.parent) {
-        const [from, to] = [doc.offsetAt(part.range.start), doc.offsetAt(part.range.end)]
-        around.push({ text: text.slice(from, to), inner: inner < 0 ? 0 : inner - from })
-        inner = from
-      }
-      return shapesAt(drawings, around)
-    })
+  // The shapes that places of a model speak of; without places, all that speak of shapes.
+  private async speaking(model: File, chart: File, positions: Position[] | null): Promise<Speaking[]> {
+    if (positions?.length === 0) return []
+    await this.studio.document(model.uri)
+    return this.studio.ask<Speaking[]>('groundstate/chart/places', { textDocument: { uri: chart.uri }, model: model.uri, positions })
   }
 }

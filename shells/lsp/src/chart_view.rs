@@ -47,6 +47,7 @@ pub fn answer(answers: &mut Answers, method: &str, params: &Value) -> Result<Val
     match method {
         "picture" => picture(answers, params),
         "edit" => edit(answers, params),
+        "places" => crate::places_view::places(answers, &path_in(params)?, params),
         "times" => crate::system_view::times(answers, &path_in(params)?),
         other => Err(Refused::new(ErrorCode::MethodNotFound, format!("{PREFIX}{other} is not known"))),
     }

@@ -21,6 +21,7 @@ mod composite_view;
 mod disk;
 mod location;
 mod pending;
+mod places_view;
 mod publish;
 mod route;
 mod run;
