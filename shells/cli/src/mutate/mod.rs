@@ -157,21 +157,25 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     tell::told(shell, &mutated, arguments.sample.is_some(), arguments.all)
 }
 
+const MUST_PASS: &str = "a model must pass its properties and scenarios before they can be judged by mutants";
+
 /// Says who cannot judge; an exit code if nobody judges.
 fn unfit(shell: &mut Shell, bench: &Bench, strict: bool) -> Result<Option<Exit>, Failure> {
     for unfit in &bench.unfit {
         if strict {
             shell.diagnostics(&unfit.sources, &unfit.faults)?;
         }
-        if shell.talks() {
+        if strict && shell.json() {
+            shell.report_failure(&Failure::usage(format!("{} {}; {MUST_PASS}", unfit.path, unfit.why)));
+        } else if strict || shell.talks() {
             let left_out = if strict { "" } else { "left out: " };
             shell.note(&format!("{left_out}{} {}", unfit.path, unfit.why))?;
         }
     }
     let (models, scenarios) = bench.judging();
     if strict && !bench.unfit.is_empty() {
-        if shell.talks() {
-            shell.note("a model must pass its properties and scenarios before they can be judged by mutants")?;
+        if !shell.json() {
+            shell.note(MUST_PASS)?;
         }
         return Ok(Some(Exit::Model));
     }

@@ -27,6 +27,9 @@ pub fn changed_lines(
             let mut command = Command::new("git");
             command.args(arguments).arg(name).current_dir(folder).stdin(Stdio::null()).output()
         };
+        if !knows(folder, revision)? {
+            return Err(Failure::usage(format!("git knows no revision {revision} in {}", folder.display())));
+        }
         let known = run(&["ls-files", "--error-unmatch", "--"]);
         let known =
             known.map_err(|error| Failure::usage(format!("--since needs git, which cannot be started: {error}")))?;
@@ -44,6 +47,17 @@ pub fn changed_lines(
         changed.insert(text.clone(), ranges(&String::from_utf8_lossy(&diff.stdout)));
     }
     Ok(changed)
+}
+
+/// Whether git knows a revision in a folder.
+fn knows(folder: &Path, revision: &str) -> Result<bool, Failure> {
+    let mut command = Command::new("git");
+    let commit = format!("{revision}^{{commit}}");
+    command.args(["rev-parse", "--verify", "--quiet", &commit]).current_dir(folder);
+    let asked = command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null()).status();
+    asked
+        .map(|status| status.success())
+        .map_err(|error| Failure::usage(format!("--since needs git, which cannot be started: {error}")))
 }
 
 /// The lines that a difference has on its new side.
