@@ -276,6 +276,10 @@ fn machine(
     let left = steps.iter().flat_map(|(_, effects)| effects).any(|found| is_update_of(found, control) && leaves(found));
     let begins = initial.as_deref().is_some_and(|value| value != UNDEF);
     let is_pattern = undef.iter().any(|guarded| is_update_of(guarded, control)) && (left || !begins);
+    // The main rule is called by nobody, so nobody enters or leaves it.
+    if is_pattern && model.main == Some(rule) {
+        return Ok(None);
+    }
     let mut graph = Graph { control, nodes: Vec::new(), index: BTreeMap::new() };
     let enter = if is_pattern { graph.trees(&undef, UNDEF)? } else { Vec::new() };
     let mut starts = Vec::new();
