@@ -216,6 +216,9 @@ fn legal(machine: &MachineChart, joint: &Joint) -> Result<(Joint, bool), String>
     if joint.to != "exit" && shape(&joint.to).is_none() {
         return Err(format!("there is no shape `{}`", joint.to));
     }
+    if let Some(Shape::Entry(_) | Shape::Exit(_) | Shape::Abort(_)) = shape(&joint.to) {
+        return Err(format!("`{}` is done by itself, and stands on no path", joint.to));
+    }
     let forks = match (joint.from.as_str(), shape(&joint.from)) {
         ("enter", _) => true,
         (_, Some(Shape::State(_) | Shape::Composite(_))) => true,
@@ -231,9 +234,6 @@ fn legal(machine: &MachineChart, joint: &Joint) -> Result<(Joint, bool), String>
         }
         (_, None) => return Err(format!("there is no shape `{}`", joint.from)),
     };
-    if let Some(Shape::Entry(_) | Shape::Exit(_) | Shape::Abort(_)) = shape(&joint.to) {
-        return Err(format!("`{}` is done by itself, and stands on no path", joint.to));
-    }
     joint.branch = None;
     Ok((joint, forks))
 }

@@ -104,15 +104,16 @@ impl Work {
         let Section::Machine(machine) = self.section()? else {
             return Err("a system starts in no control state".to_string());
         };
-        if machine.is_pattern() {
-            return Err("a pattern starts where its entering arrow leads".to_string());
-        }
         let is_it = |shape: &Shape| shape.name().is_some_and(|own| own.text() == name);
         let is_state = |shape: &Shape| matches!(shape, Shape::State(_) | Shape::Composite(_));
         let Some(wanted) = machine.shapes().find(|shape| is_state(shape) && is_it(shape)) else {
             return Err(format!("`{name}` is no control state"));
         };
         let around = wanted.syntax().parent();
+        // In a composite state of a pattern one is the first.
+        if machine.is_pattern() && around.as_ref() == Some(machine.syntax()) {
+            return Err("a pattern starts where its entering arrow leads".to_string());
+        }
         let mut edits: Vec<(std::ops::Range<usize>, &str)> = Vec::new();
         for shape in machine.shapes().filter(|shape| shape.syntax().parent() == around) {
             let is_initial = match &shape {
