@@ -174,7 +174,24 @@ impl FaultKind {
 impl FaultKind {
     /// Whether the model is at fault, whatever the environment and the limits.
     pub fn is_of_the_model(&self) -> bool {
-        !matches!(self, FaultKind::Limit { .. } | FaultKind::Interrupted(_) | FaultKind::Environment { .. })
+        match self {
+            FaultKind::Limit { .. } | FaultKind::Interrupted(_) | FaultKind::Environment { .. } => false,
+            FaultKind::InconsistentUpdate { .. }
+            | FaultKind::OutOfDomain { .. }
+            | FaultKind::UndefinedGuard
+            | FaultKind::UndefinedOperand { .. }
+            | FaultKind::BadOperand { .. }
+            | FaultKind::DivisionByZero
+            | FaultKind::Overflow { .. }
+            | FaultKind::NotANumber { .. }
+            | FaultKind::NotEnumerable { .. }
+            | FaultKind::NoDefinition { .. }
+            | FaultKind::Unbound
+            | FaultKind::NotARule { .. }
+            | FaultKind::WrongArguments { .. }
+            | FaultKind::Temporal
+            | FaultKind::NoMain => true,
+        }
     }
 }
 

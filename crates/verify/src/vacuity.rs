@@ -16,9 +16,6 @@ use syntax::Span;
 use crate::question::Subject;
 use crate::report::{Outcome, Report};
 
-/// LIMIT: parts of one formula.
-const PARTS: usize = 256;
-
 /// A part of a formula, replaced by a constant that makes the formula stronger.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Replaced {
@@ -122,9 +119,6 @@ fn find(
     let alone = alone && operands.len() == 1;
     for (index, (operand, same)) in operands.into_iter().enumerate() {
         let Some(same) = same else { continue };
-        if parts.len() >= PARTS {
-            return;
-        }
         path.push(index);
         let grows = grows == same;
         let mut within = inside;

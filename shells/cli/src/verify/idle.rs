@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use groundstate::job::{self, Cancel, VerifyEvent};
 use groundstate::verify::temporal::fairness::AgentFairness;
-use groundstate::verify::vacuity::Question;
+use groundstate::verify::vacuity::{Idle, Question};
 use groundstate::verify::{NoStart, Options, Outcome, Report, Request, Subject};
 use program::{Program, PropertyKind};
 use wire::Vacuity;
@@ -41,7 +41,7 @@ pub fn tell(
     let question = Question::new(program, &held);
     let count = question.replaced.len();
     if count == 0 {
-        return shell.note("no property that holds has parts to replace");
+        return tell_count(shell, held.len(), 0, &Idle::default());
     }
     let request = Request::of(&Arc::new(question.program.clone()), options).fair(agents).build();
     let request = request.map_err(conflict::conflict)?;
@@ -68,11 +68,15 @@ pub fn tell(
     for replaced in &idle.parts {
         shell.diagnostic(teller.words.sources, &groundstate::diagnose_idle(replaced, program))?;
     }
+    tell_count(shell, held.len(), count, &idle)
+}
+
+fn tell_count(shell: &mut Shell, held: usize, count: usize, idle: &Idle) -> Result<(), Failure> {
     if shell.json() {
-        return shell.object(&Vacuity::new(held.len(), count, idle.parts.len(), idle.open));
+        return shell.object(&Vacuity::new(held, count, idle.parts.len(), idle.open));
     }
     if shell.talks() || idle.open > 0 {
-        let (parts, of) = (plural(count, "part"), counted(held.len()));
+        let (parts, of) = (plural(count, "part"), counted(held));
         let found = if idle.parts.is_empty() { "none".to_string() } else { idle.parts.len().to_string() };
         let open = if idle.open > 0 { format!(", {} not known", idle.open) } else { String::new() };
         writeln!(shell.out(), "idle parts: {found} of {parts} of {of}{open}")?;
