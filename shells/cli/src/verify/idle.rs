@@ -5,7 +5,7 @@
 use std::io::Write;
 use std::sync::Arc;
 
-use groundstate::job::{self, Cancel, VerifyEvent};
+use groundstate::job::Cancel;
 use groundstate::verify::temporal::fairness::AgentFairness;
 use groundstate::verify::vacuity::{Idle, Question};
 use groundstate::verify::{NoStart, Options, Outcome, Report, Request, Subject};
@@ -14,7 +14,7 @@ use wire::Vacuity;
 
 use super::tell::Teller;
 use super::watch::Watch;
-use super::{Arguments, conflict};
+use super::{Arguments, aside, conflict};
 use crate::check::plural;
 use crate::failure::Failure;
 use crate::interrupt;
@@ -48,17 +48,7 @@ pub fn tell(
     let mut watch = Watch::new(arguments.bounded.time, shell.global.quiet || shell.json());
     let cancel = Cancel::from(interrupt::request().clone());
     let solver = Process::find(arguments.solver.as_deref());
-    let job = job::verify(request, cancel, solver, job::NO_KEEPER, || false);
-    let job = job.map_err(|error| Failure::usage(format!("the search cannot be started: {error}")))?;
-    while let Some(event) = job.next_event() {
-        if let VerifyEvent::Progress(progress) = event
-            && !watch.at(&progress)
-        {
-            job.cancel().cancel();
-        }
-    }
-    let (outcome, _) = job.finish().unwrap_or_else(|crashed| panic!("{}", crashed.0));
-    watch.hide();
+    let outcome = aside::search(request, solver, cancel, &mut watch, &|| false)?;
     let found = match outcome {
         Ok(found) => found,
         Err(NoStart::Refused(_)) => unreachable!("the search is not kept"),

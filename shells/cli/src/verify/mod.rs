@@ -3,6 +3,7 @@
 //!
 //! Exit codes: 0 all hold, 1 something is violated, 3 nothing is violated but something is unknown.
 
+mod aside;
 pub mod beside;
 mod bounded;
 mod checkpoint;

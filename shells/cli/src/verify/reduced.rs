@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 
 use groundstate::inputs::Scalar;
 use groundstate::inputs::verification::Verification;
-use groundstate::job::{self, Cancel, VerifyEvent};
+use groundstate::job::Cancel;
 use groundstate::verify::{NoSolvers, Options, Report, Request};
 use groundstate::{PartQuestion, PartSearch, ProofOnPart, SystemParts};
 use program::PropertyKind;
@@ -17,7 +17,7 @@ use syntax::Sources;
 
 use super::beside::beside;
 use super::tell::Teller;
-use super::{Arguments, Bounded, Engine, OPTIONS, Storage, assumed, conflict};
+use super::{Arguments, Bounded, Engine, OPTIONS, Storage, aside, assumed, conflict};
 use crate::failure::Failure;
 use crate::interrupt;
 use crate::shell::Shell;
@@ -107,19 +107,8 @@ fn search(
     let workers = arguments.workers.map_or(processors, |workers| workers as usize);
     let options = Options { workers, max_states: options.max_states.min(STATES), ..options };
     let request = Request::of(program, options).build().map_err(conflict::conflict)?;
-    let job = job::verify(request, Cancel::new(), NoSolvers, job::NO_KEEPER, || false);
-    let job = job.map_err(|error| Failure::usage(format!("the search cannot be started: {error}")))?;
     let is_up = || until.is_some_and(|until| Instant::now() > until) || interrupt::request().is_raised();
-    while let Some(event) = job.next_event() {
-        if let VerifyEvent::Progress(progress) = event
-            && (!watch.at(&progress) || is_up())
-        {
-            job.cancel().cancel();
-        }
-    }
-    let (outcome, _) = job.finish().unwrap_or_else(|crashed| panic!("{}", crashed.0));
-    watch.hide();
-    Ok(outcome.ok())
+    Ok(aside::search(request, NoSolvers, Cancel::new(), &mut watch, &is_up)?.ok())
 }
 
 fn tell(shell: &mut Shell, proof: &ProofOnPart) -> Result<(), Failure> {
