@@ -137,6 +137,13 @@ TEST(PeriodicTask, TheWatchdogsBudgetIsWhatThePeriodLeaves) {
     EXPECT_EQ(task.thread().state(), TaskState::built);
 }
 
+TEST(PeriodicTask, WorkThatDoesNotFitLeavesNothingToWait) {
+    VirtualClock clock{1};
+    const PeriodicTask<VirtualClock> task{clock, "task", {.period_ns = 5 * ms, .elaboration_ns = 7 * ms}, [](const Cycle&) {}};
+    EXPECT_EQ(task.watchdog().budget_ns(), 0);
+    EXPECT_EQ(task.watchdog().left_ns(), 0);
+}
+
 TEST(PeriodicTask, AStepThatThrowsEndsItsTaskAlone) {
     VirtualClock clock{3};
     PeriodicTask bad{clock, "bad", {.period_ns = 10}, [](const Cycle& cycle) {
