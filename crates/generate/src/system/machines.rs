@@ -10,7 +10,7 @@ use std::fmt::Write;
 use chart::system::{Action, Component, Device, System};
 use chart::{ComponentMachine, Content, Feed, Take};
 
-use super::names::{datum, hook, member, pascal, readers};
+use super::names::{datum, hook, member, pascal, readers, type_name};
 use super::plan::{Form, MachineClass, copies, numbers, places};
 
 /// Whether the chart says what some channel or device carries.
@@ -39,7 +39,7 @@ fn type_of(content: &Content) -> String {
         Content::Boolean => "bool".to_string(),
         Content::Integer => "std::int64_t".to_string(),
         Content::Real => "double".to_string(),
-        Content::Enum { name, .. } => member(name),
+        Content::Enum { name, .. } => type_name(name),
         Content::Tuple(parts) => {
             let parts: Vec<String> = parts.iter().map(type_of).collect();
             format!("groundstate::Tuple<{}>", parts.join(", "))
@@ -61,7 +61,7 @@ pub(super) fn messages(system: &System, file: &str, space: &str) -> String {
         if !known.contains(&name) {
             known.push(name);
             let literals: Vec<String> = literals.iter().map(|literal| member(literal)).collect();
-            let _ = writeln!(text, "\nenum class {} : std::uint32_t {{ {} }};", member(name), literals.join(", "));
+            let _ = writeln!(text, "\nenum class {} : std::uint32_t {{ {} }};", type_name(name), literals.join(", "));
         }
     }
     for channels in system.drawn_channels() {
@@ -166,7 +166,7 @@ fn one(text: &mut String, system: &System, machine: &ComponentMachine, class: &M
                 let _ = writeln!(
                     text,
                     "        static constexpr std::uint32_t of({}) noexcept {{ return {number}; }}",
-                    member(name)
+                    type_name(name)
                 );
             }
         }

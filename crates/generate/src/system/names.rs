@@ -5,7 +5,7 @@ use chart::system::{Channel, System};
 
 use crate::names::{is_reserved, snake};
 
-/// The types of the generated program itself, which no component and no channel may take.
+/// The types of the generated program itself, which no component, channel or domain may take.
 const OWN_TYPES: &[&str] =
     &["Base", "C", "Cycle", "Hooks", "In", "Observer", "Out", "Phases", "Seen", "Side", "System"];
 
@@ -13,14 +13,19 @@ const OWN_TYPES: &[&str] =
 pub(super) fn pascal(name: &str) -> String {
     let parts = name.split('_').filter(|part| !part.is_empty());
     let joined: String = parts.map(|part| part[..1].to_uppercase() + &part[1..]).collect();
-    if OWN_TYPES.contains(&joined.as_str()) { format!("{joined}_") } else { member(&joined) }
+    type_name(&joined)
+}
+
+/// The name of a domain as that of a type.
+pub(super) fn type_name(name: &str) -> String {
+    if OWN_TYPES.contains(&name) { format!("{name}_") } else { member(name) }
 }
 
 /// The type of a drawn channel's data: its name, or `PositionDatum` where a domain of the data or a component makes the type `Position`.
 pub(super) fn datum(system: &System, channel: &str) -> String {
     let made = pascal(channel);
     let mut enums = system.computing.contents.values().flat_map(Content::enums);
-    let is_taken = enums.any(|(name, _)| member(name) == made)
+    let is_taken = enums.any(|(name, _)| type_name(name) == made)
         || system.components.iter().any(|component| pascal(&component.name) == made);
     if is_taken { format!("{made}Datum") } else { made }
 }
@@ -57,6 +62,7 @@ mod tests {
         // A type of the program itself.
         check("c", "C_", "c");
         check("phases", "Phases_", "phases");
+        assert_eq!((type_name("Side").as_str(), type_name("Mode").as_str()), ("Side_", "Mode"));
         // A macro of the headers that the program includes.
         check("EIO", "EIO_", "eio");
         assert_eq!((hook("beforeSensors").as_str(), hook("safeStop").as_str()), ("before_sensors_", "safe_stop_"));
