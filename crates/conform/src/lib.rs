@@ -25,7 +25,7 @@ mod waiting;
 pub use events::Events;
 pub use evidence::{Claim, Parted, Recorded};
 pub use fault::{IDS as FAULT_IDS, diagnose_parted};
-pub use recording::{Decision, Event, Kind, Malformed, Reader, Recording, Track};
+pub use recording::{Decision, Event, Kind, Malformed, Reader, Recording, Rhythm, Track};
 pub use session::{Refusal, Session, Way};
 
 /// The result.

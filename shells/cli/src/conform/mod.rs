@@ -8,7 +8,7 @@ mod follow;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use ::conform::{Event, Kind, Malformed, Parted, Reader, Recording, Refusal, Verdict, diagnose_parted};
+use ::conform::{Event, Kind, Malformed, Parted, Reader, Recording, Refusal, Track, Verdict, diagnose_parted};
 use clap::Args;
 use groundstate::Loaded;
 use groundstate::job::{self, Cancel, ConformRequest, Conformed, Events, NoTail, NotConformed};
@@ -116,8 +116,8 @@ fn tell(shell: &mut Shell, conformed: &Conformed) -> Result<Exit, Failure> {
             let decisions = decisions
                 .map(|decisions| format!("\n{decisions} decisions are those of the components' machines"))
                 .unwrap_or_default();
-            let missed = missed(recording);
-            format!("conforms {way}: {events} events, {steps} steps of the model{after}{decisions}{missed}")
+            let (missed, silent) = (missed(recording), silent(recording));
+            format!("conforms {way}: {events} events, {steps} steps of the model{after}{decisions}{missed}{silent}")
         }
         Verdict::Unknown { events, reason } => {
             format!("not known, {way}: {reason}; {events} events agree before")
@@ -151,6 +151,29 @@ fn missed(recording: &Recording) -> String {
         1 => format!("\n1 deadline was missed ({each}); whether the model forbids that is not looked at"),
         more => format!("\n{more} deadlines were missed ({each}); whether the model forbids that is not looked at"),
     }
+}
+
+/// LIMIT: periods without an event that are told of.
+const SILENT: i64 = 4;
+
+/// The synchronous tasks of which nothing is recorded for several periods before they were asked to stop. An order of events says nothing of
+/// what did not come.
+fn silent(recording: &Recording) -> String {
+    let Some(stopped_ns) = recording.stopped_ns else { return String::new() };
+    let silence = |track: &Track| {
+        let period_ns = track.rhythm?.period_ns;
+        let last_ns = track.events.iter().map(|event| event.time_ns).filter(|time_ns| *time_ns <= stopped_ns).max();
+        let silent_ns = stopped_ns - last_ns.unwrap_or(0);
+        (period_ns > 0 && silent_ns > SILENT * period_ns).then_some((silent_ns, silent_ns / period_ns))
+    };
+    let told = recording.tracks.iter().filter_map(|track| {
+        let (silent_ns, periods) = silence(track)?;
+        let (task, silent) = (&track.task, ms(silent_ns));
+        Some(format!(
+            "\nnothing is recorded of {task} in the last {silent} ms before the stop, {periods} of its periods: whether it stood still is not looked at"
+        ))
+    });
+    told.collect()
 }
 
 fn ms(ns: i64) -> String {
@@ -208,9 +231,9 @@ fn parting(shell: &mut Shell, sources: &Sources, parted: &Parted) -> Result<(), 
 
 #[cfg(test)]
 mod tests {
-    use super::*;
-    use ::conform::Track;
+    use ::conform::Rhythm;
 
+    use super::*;
     #[test]
     fn missed_deadlines_are_told_of_each_task_until_the_stop() {
         let missed_at = |time_ns: i64| Event { time_ns, kind: Kind::Misses, ..Event::default() };
@@ -226,5 +249,30 @@ mod tests {
         let one = Recording { stopped_ns: Some(1), ..recording };
         assert_eq!(missed(&one), format!("\n1 deadline was missed (drive 1); {unsaid}"));
         assert_eq!(missed(&Recording { stopped_ns: Some(0), ..one }), "");
+    }
+
+    #[test]
+    fn a_synchronous_task_that_records_nothing_more_is_told_of() {
+        let track = |task: &str, period_ns: i64, times: &[i64]| Track {
+            task: task.to_string(),
+            rhythm: (period_ns > 0).then_some(Rhythm { period_ns, offset_ns: 0, deadline_ns: period_ns }),
+            events: times.iter().map(|time_ns| Event { time_ns: *time_ns, ..Event::default() }).collect(),
+            ..Track::default()
+        };
+        let tracks = vec![
+            track("drive", 10_000_000, &[0, 12_000_000, 501_000_000]),
+            track("arm", 100_000_000, &[0, 100_000_000]),
+            // Nobody says when it is due.
+            track("plan", 0, &[0]),
+            track("eye", 10_000_000, &[]),
+        ];
+        let recording = Recording { tracks, stopped_ns: Some(500_000_000), ..Recording::default() };
+        let end = "whether it stood still is not looked at";
+        let said = format!(
+            "\nnothing is recorded of drive in the last 488.0000 ms before the stop, 48 of its periods: {end}\
+             \nnothing is recorded of eye in the last 500.0000 ms before the stop, 50 of its periods: {end}"
+        );
+        assert_eq!(silent(&recording), said);
+        assert_eq!(silent(&Recording { stopped_ns: None, ..recording }), "");
     }
 }
