@@ -35,6 +35,16 @@ impl Maker {
         &self.widening
     }
 
+    /// The same with as much room as this gives; what values have numbers keep them.
+    pub fn with_room(&self, widening: &Widening) -> Maker {
+        Maker { widening: widening.clone(), starts: None, ..self.clone() }
+    }
+
+    /// The same with the initial states of an explorer that it might have made.
+    pub fn beginning_with(self, explorer: &Explorer) -> Maker {
+        Maker { starts: Some(explorer.starts()), ..self }
+    }
+
     /// Makes explorers enumerate all alternatives, however long that takes.
     pub fn tireless(mut self) -> Maker {
         self.settings.interrupt = Interrupt::default();

@@ -30,6 +30,8 @@ pub struct Plan {
     pub max_depth: u64,
     /// The largest number of bytes for states.
     pub max_bytes: u64,
+    /// When states take so many bytes, they are packed more tightly; see [`crate::explicit::search`] for the default.
+    pub census: Option<u64>,
     /// Whether to keep the edges walked, for properties of runs, where states are stored in full and there is memory.
     pub edges: bool,
     /// How states are stored.

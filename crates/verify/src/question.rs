@@ -67,6 +67,7 @@ impl Question {
             max_states: options.max_states,
             max_depth: options.max_depth,
             max_bytes: options.max_bytes,
+            census: options.census,
             storage: options.storage,
             seed: options.seed,
             partial_order: options.partial_order,

@@ -2,6 +2,7 @@
 //! a module here.
 
 mod blocked;
+mod census;
 mod checkpoint;
 mod collections;
 mod disk;

@@ -29,11 +29,16 @@ pub(crate) enum Codec {
     InPlace(Collection),
     /// The number that an interner gives.
     Interned,
+    /// That of the few values that a location has taken.
+    Few { location: u32, bits: u8 },
 }
 
 impl Codec {
     /// That of a field.
     pub fn of(encoding: &Encoding, field: Field) -> Codec {
+        if field.few {
+            return Codec::Few { location: field.location, bits: field.bits };
+        }
         let (values, undefined) = match &encoding.codes[field.function.0 as usize] {
             Some(Codes::Listed { values, undefined }) => (values, undefined),
             Some(Codes::InPlace(collection)) => return Codec::InPlace(collection.clone()),
@@ -71,6 +76,7 @@ impl Codec {
             Codec::Listed { values, .. } => values.get(code as usize).cloned().unwrap_or(Value::Undef),
             Codec::InPlace(collection) => collection.value(code),
             Codec::Interned => view.value(code as u32).clone(),
+            Codec::Few { location, .. } => view.few_value(*location, code).clone(),
         }
     }
 
@@ -80,6 +86,7 @@ impl Codec {
         match (self, value) {
             (Codec::Interned, _) => Some(u64::from(view.number(value))),
             (Codec::InPlace(collection), _) => collection.code(value).ok(),
+            (Codec::Few { location, bits }, _) => view.few_code(*location, *bits, value),
             (
                 Codec::Integers { undefined, .. }
                 | Codec::Booleans { undefined }

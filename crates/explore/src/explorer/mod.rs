@@ -5,6 +5,7 @@
 //! the same settings and one [`Interner`], pack states alike. INVARIANT: what comes out does not depend on what was
 //! remembered.
 
+pub(crate) mod census;
 mod inputs;
 mod judge;
 mod makers;

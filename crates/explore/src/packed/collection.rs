@@ -224,7 +224,8 @@ mod tests {
 
     /// An edit of the packed value is the packed value of the edited one, and nothing else in the word changes.
     fn check(collection: &Collection, before: &Value, edit: &Edit, after: &Value, shift: u8) {
-        let field = Field { location: 0, function: FunctionId(0), word: 0, shift, bits: collection.bits() as u8 };
+        let field =
+            Field { location: 0, function: FunctionId(0), word: 0, shift, bits: collection.bits() as u8, few: false };
         let around = !field.mask() & 0xdead_beef_cafe_f00d;
         let mut words = [around];
         field.put(collection.code(before).unwrap(), &mut words);

@@ -114,21 +114,27 @@ impl Encoding {
             let collection = (in_place && !undefined && !widening.numbered.contains(&id))
                 .then(|| Codes::in_place(program, constant, machine, domain, found(), longest))
                 .flatten();
-            wants.push(Want { count: locations.len(), bits, collection });
-            placed.push((id, locations, codes));
+            let rooms: Vec<Option<u8>> =
+                locations.iter().map(|location| widening.rooms.get(location).copied()).collect();
+            // Those of which a census has found that they are few stand by their numbers.
+            let collection = collection.filter(|_| rooms.iter().all(Option::is_none));
+            wants.push(Want { bits: rooms.iter().map(|room| room.map_or(bits, usize::from)).collect(), collection });
+            placed.push((id, locations, codes, rooms));
         }
         fit(&mut wants);
         let mut used = 0usize;
-        for ((id, locations, codes), want) in placed.into_iter().zip(wants) {
-            let bits = want.bits();
-            if used + bits * locations.len() > BITS {
+        for ((id, locations, codes, rooms), want) in placed.into_iter().zip(wants) {
+            let all: usize = want.bits().sum();
+            if used + all > BITS {
                 continue;
             }
-            used += bits * locations.len();
-            encoding.codes[id.0 as usize] = Some(want.collection.map_or(codes, Codes::InPlace));
-            for location in locations {
-                of_location[location as usize] = encoding.add_field(location, id, bits);
+            used += all;
+            for ((location, room), bits) in locations.into_iter().zip(rooms).zip(want.bits()) {
+                let field = encoding.add_field(location, id, bits);
+                encoding.fields[field as usize].few = room.is_some();
+                of_location[location as usize] = field;
             }
+            encoding.codes[id.0 as usize] = Some(want.collection.map_or(codes, Codes::InPlace));
         }
         encoding.place_inputs(program, machine, initial, kept, &mut of_location);
         for (location, place) in of_location.iter().enumerate() {
@@ -147,6 +153,10 @@ impl Encoding {
         if origins > 1 {
             let bits = usize::BITS - (origins - 1).leading_zeros();
             encoding.origin = Some(encoding.add_field(NOWHERE, FunctionId(0), bits as usize));
+        }
+        if !widening.rooms.is_empty() {
+            // A state of one word has no number in the table that stores it.
+            encoding.words = encoding.words.max(2);
         }
         encoding.place_pieces();
         encoding
@@ -198,12 +208,15 @@ impl Encoding {
             (word, shift) = (word + 1, 0);
         }
         self.words = self.words.max(word as usize + 1);
-        self.fields.push(Field { location, function, word, shift: shift as u8, bits: bits as u8 });
+        self.fields.push(Field { location, function, word, shift: shift as u8, bits: bits as u8, few: false });
         self.fields.len() as u32 - 1
     }
 
     /// The code of a location's value.
     pub fn code(&self, field: Field, value: &Value, view: &mut View) -> Result<u64, TooNarrow> {
+        if field.few {
+            return view.few_code(field.location, field.bits, value).ok_or_else(|| TooNarrow::outgrown(field.location));
+        }
         let narrow = || {
             let undefined = BTreeSet::from([field.function]);
             TooNarrow(Widening { undefined, ..Widening::default() })
@@ -243,6 +256,9 @@ impl Encoding {
     /// The value that stands in a field.
     pub fn value(&self, field: Field, words: &[u64], view: &mut View) -> Value {
         let code = field.code(words);
+        if field.few {
+            return view.few_value(field.location, code).clone();
+        }
         match &self.codes[field.function.0 as usize] {
             Some(Codes::Listed { values, .. }) => values.get(code as usize).cloned().unwrap_or(Value::Undef),
             Some(Codes::InPlace(collection)) => collection.value(code),

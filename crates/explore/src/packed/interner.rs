@@ -11,6 +11,8 @@ use machine::inside::Grown;
 use machine::{Location, Value};
 use rustc_hash::FxBuildHasher;
 
+use crate::packed::few::Dictionary;
+
 /// What a state has beyond its fields: locations that come up as a run goes on, and the elements of domains that grow.
 #[derive(Debug, Clone, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub(crate) struct Rest {
@@ -48,6 +50,18 @@ impl<T: Clone + Eq + std::hash::Hash> Table<T> {
 struct Tables {
     values: Table<Value>,
     rests: Table<Arc<Rest>>,
+    /// By location, its values where it has room for few.
+    few: Vec<Dictionary>,
+}
+
+impl Tables {
+    fn dictionary(&mut self, location: u32) -> &mut Dictionary {
+        let index = location as usize;
+        if self.few.len() <= index {
+            self.few.resize_with(index + 1, Dictionary::default);
+        }
+        &mut self.few[index]
+    }
 }
 
 /// See the module.
@@ -63,6 +77,12 @@ impl Interner {
         tables.values.items.len() + tables.rests.items.len()
     }
 
+    /// By location, how many values it has taken, where it has room for few.
+    pub(crate) fn sizes(&self) -> Vec<usize> {
+        let tables = self.tables.lock().unwrap_or_else(PoisonError::into_inner);
+        tables.few.iter().map(Dictionary::len).collect()
+    }
+
     /// Whether it holds nothing.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
@@ -74,11 +94,18 @@ impl Interner {
 pub(crate) struct View {
     shared: Arc<Interner>,
     seen: Tables,
+    /// The numbers of the integers from 0 on, the most frequent values.
+    near: Box<[u32; NEAR]>,
 }
+
+/// LIMIT: integers below this one are found by place.
+const NEAR: usize = 1 << 10;
+/// Such an integer has no number.
+const NONE: u32 = u32::MAX;
 
 impl View {
     pub fn new(shared: Arc<Interner>) -> View {
-        View { shared, seen: Tables::default() }
+        View { shared, seen: Tables::default(), near: Box::new([NONE; NEAR]) }
     }
 
     /// What it is a view of.
@@ -97,7 +124,20 @@ impl View {
     }
 
     /// The number of a value.
+    #[inline]
     pub fn number(&mut self, value: &Value) -> u32 {
+        let near = match value {
+            Value::Integer(integer) => usize::try_from(*integer).ok().filter(|place| *place < NEAR),
+            _ => None,
+        };
+        let Some(place) = near else { return self.number_by_hash(value) };
+        if self.near[place] == NONE {
+            self.near[place] = self.number_by_hash(value);
+        }
+        self.near[place]
+    }
+
+    fn number_by_hash(&mut self, value: &Value) -> u32 {
         if let Some(number) = self.seen.values.numbers.get(value) {
             return *number;
         }
@@ -112,6 +152,41 @@ impl View {
             self.renew();
         }
         &self.seen.values.items[number as usize]
+    }
+
+    /// The code of a value of a location that has room for few; none where there is no room for it.
+    #[inline]
+    pub fn few_code(&mut self, location: u32, bits: u8, value: &Value) -> Option<u64> {
+        let number = self.number(value);
+        let known = self.seen.few.get(location as usize).and_then(|dictionary| dictionary.code(number));
+        let code = match known {
+            Some(code) => code,
+            None => self.new_few_code(location, bits, number)?,
+        };
+        Some(u64::from(code))
+    }
+
+    #[cold]
+    fn new_few_code(&mut self, location: u32, bits: u8, number: u32) -> Option<u32> {
+        let mut shared = self.shared.tables.lock().unwrap_or_else(PoisonError::into_inner);
+        let code = shared.dictionary(location).code_within(number, bits)?;
+        self.seen.dictionary(location).renew(shared.dictionary(location));
+        Some(code)
+    }
+
+    /// The value of such a code.
+    pub fn few_value(&mut self, location: u32, code: u64) -> &Value {
+        let known = self.seen.few.get(location as usize).and_then(|dictionary| dictionary.number(code));
+        let number = match known {
+            Some(number) => number,
+            None => {
+                let mut shared = self.shared.tables.lock().unwrap_or_else(PoisonError::into_inner);
+                let mine = self.seen.dictionary(location);
+                mine.renew(shared.dictionary(location));
+                mine.number(code).expect("a code that was given to a value")
+            }
+        };
+        self.value(number)
     }
 
     /// The number of a rest.

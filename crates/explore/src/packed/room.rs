@@ -14,47 +14,48 @@ const WORDS: usize = 2;
 /// The fields of a function.
 #[derive(Debug)]
 pub(crate) struct Want {
-    /// How many.
-    pub count: usize,
     /// How many bits each needs where it is no collection in place.
-    pub bits: usize,
+    pub bits: Vec<usize>,
     /// The collections that may stand there.
     pub collection: Option<Collection>,
 }
 
 impl Want {
     /// How many bits each has.
-    pub fn bits(&self) -> usize {
-        self.collection.as_ref().map_or(self.bits, Collection::bits)
+    pub fn bits(&self) -> impl Iterator<Item = usize> + '_ {
+        let in_place = self.collection.as_ref().map(Collection::bits);
+        self.bits.iter().map(move |bits| in_place.unwrap_or(*bits))
     }
 }
 
 /// How many words fields of so many bits need, one after the other, each within a word.
-fn words(wants: &[Want], bits_of: impl Fn(&Want) -> usize) -> usize {
+fn words(bits: impl Iterator<Item = usize>) -> usize {
     let (mut words, mut left) = (1, 63);
-    for want in wants {
-        let bits = bits_of(want);
-        for _ in 0..want.count {
-            if bits > left {
-                (words, left) = (words + 1, 64);
-            }
-            left -= bits;
+    for bits in bits {
+        if bits > left {
+            (words, left) = (words + 1, 64);
         }
+        left -= bits;
     }
     words
 }
 
+/// How many words they need as they are.
+fn needed(wants: &[Want]) -> usize {
+    words(wants.iter().flat_map(Want::bits))
+}
+
 /// Leaves the collections that stand in place, and makes room in them.
 pub(crate) fn fit(wants: &mut [Want]) {
-    let most = words(wants, |want| want.bits).min(WORDS);
-    if words(wants, Want::bits) > most {
+    let most = words(wants.iter().flat_map(|want| want.bits.iter().copied())).min(WORDS);
+    if needed(wants) > most {
         for want in wants.iter_mut() {
             // A set of few elements needs no more than a number does.
             want.collection.take_if(|collection| collection.is_sequence() || collection.bits() > NUMBER);
         }
         return;
     }
-    let least = words(wants, Want::bits);
+    let least = needed(wants);
     // First all of them become longer alike, then each as far as it goes.
     let all: Vec<usize> = (0..wants.len()).collect();
     for some in std::iter::once(&all[..]).chain(all.chunks(1)) {
@@ -67,7 +68,7 @@ pub(crate) fn fit(wants: &mut [Want]) {
                     (want.collection, any) = (Some(longer), true);
                 }
             }
-            if !any || words(wants, Want::bits) > least {
+            if !any || needed(wants) > least {
                 some.iter().zip(shorter).for_each(|(index, shorter)| wants[*index].collection = shorter);
                 break;
             }
@@ -87,11 +88,11 @@ mod tests {
     /// How many bits each has in the end.
     fn check(mut wants: Vec<Want>, expected: &[usize]) {
         fit(&mut wants);
-        assert_eq!(wants.iter().map(Want::bits).collect::<Vec<_>>(), expected);
+        assert_eq!(wants.iter().map(|want| want.bits().next().expect("a field")).collect::<Vec<_>>(), expected);
     }
 
     fn want(count: usize, bits: usize, collection: Option<Collection>) -> Want {
-        Want { count, bits, collection }
+        Want { bits: vec![bits; count], collection }
     }
 
     #[test]

@@ -17,6 +17,10 @@ pub struct Widening {
     pub(crate) longest: BTreeMap<FunctionId, usize>,
     /// Functions that hold collections of other elements than those of their domains.
     pub(crate) numbered: BTreeSet<FunctionId>,
+    /// By dense location number, how many bits suffice for the few values that the location was seen to take.
+    pub(crate) rooms: BTreeMap<u32, u8>,
+    /// Locations that have taken more values than that.
+    pub(crate) outgrown: BTreeSet<u32>,
 }
 
 impl Widening {
@@ -29,6 +33,19 @@ impl Widening {
             *longest = (*longest).max(*length);
         }
         self.numbered.extend(&other.numbered);
+        if other.is_outgrown() {
+            self.rooms.clear();
+        }
+    }
+
+    /// Gives locations the room that a census found to suffice, or takes it back if there was none.
+    pub fn settle(&mut self, rooms: Rooms) {
+        self.rooms = rooms.0;
+    }
+
+    /// Whether a location has outgrown the room that a census gave it.
+    pub fn is_outgrown(&self) -> bool {
+        !self.outgrown.is_empty()
     }
 
     /// Whether nothing has been found.
@@ -37,11 +54,20 @@ impl Widening {
     }
 }
 
+/// How many bits suffice for the values that locations were seen to take ([`crate::packed::few`]).
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Rooms(pub(crate) BTreeMap<u32, u8>);
+
 /// The state does not fit into the encoding.
 #[derive(Debug)]
 pub(crate) struct TooNarrow(pub Widening);
 
 impl TooNarrow {
+    /// A location has taken more values than it has room for.
+    pub fn outgrown(location: u32) -> TooNarrow {
+        TooNarrow(Widening { outgrown: BTreeSet::from([location]), ..Widening::default() })
+    }
+
     /// A collection of a function has no code.
     pub fn of(function: FunctionId, misfit: Misfit) -> TooNarrow {
         let mut widening = Widening::default();

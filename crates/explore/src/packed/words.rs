@@ -59,6 +59,8 @@ pub(crate) struct Field {
     pub word: u32,
     pub shift: u8,
     pub bits: u8,
+    /// Its codes are numbers of the few values that the location has taken, from 0 on ([`crate::packed::few`]).
+    pub few: bool,
 }
 
 impl Field {

@@ -47,7 +47,7 @@ impl Past {
     /// Ends an attempt because the steps of a state do not fit.
     pub fn close(&mut self, shard: &Shard, words: usize, more: &Widening) {
         let places = shard.journal.iter().flat_map(|journal| &journal.places).map(|place| *place as usize);
-        let culprit = shard.next - 1;
+        let culprit = if shard.is_retried { shard.next } else { shard.next - 1 };
         let places: Vec<usize> = places.filter(|place| *place != culprit).chain([culprit]).collect();
         self.attempts.extend([words as u64, places.len() as u64]);
         places.iter().for_each(|place| self.attempts.extend(shard.store.state(*place)));

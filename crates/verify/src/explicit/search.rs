@@ -8,7 +8,7 @@
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-use explore::{Explorer, Orbits, Unbounded};
+use explore::{Explorer, Orbits, Rooms, Unbounded, Widening};
 use machine::Cause;
 use program::Program;
 use syntax::Span;
@@ -17,6 +17,7 @@ use crate::again::made_again;
 use crate::checkpoint::journal::Journal;
 use crate::checkpoint::keeper::Keeper;
 use crate::checkpoint::{Past, Resumed, Unfit, keep, made, resume};
+use crate::explicit::anew::packed_anew;
 use crate::explicit::edges::{Edges, OWNERS};
 use crate::explicit::shard::{Crew, Decision, Shard, Tally, note};
 use crate::explicit::ways::ways;
@@ -81,14 +82,16 @@ impl Search {
         let mut past = Past::default();
         let mut plan = plan.clone();
         let mut symmetry = plan.symmetry.then(|| Interchange::new(program, &plan));
+        let (mut growth, mut anew) = (Growth::default(), None);
         loop {
             plan.settings.unordered = symmetry.as_ref().map(|found| Arc::clone(&found.unordered)).unwrap_or_default();
-            let Begun { maker, mut explorer, mut shards, unreduced, starts } = match resumed.take() {
-                Some(Resumed { past: before, maker, explorer, shards, unreduced }) => {
+            let Begun { maker, mut explorer, mut shards, unreduced, starts } = match (anew.take(), resumed.take()) {
+                (Some(begun), _) => begun,
+                (None, Some(Resumed { past: before, maker, explorer, shards, unreduced })) => {
                     past = before;
                     Begun { maker, explorer, shards, unreduced, starts: Vec::new() }
                 }
-                None => begun(program, &plan, keeper.is_some(), &mut past, &mut symmetry)?,
+                (None, None) => begun(program, &plan, keeper.is_some(), &mut past, &mut symmetry)?,
             };
             if let Some(found) = &symmetry
                 && found.unordered.is_empty() != plan.settings.unordered.is_empty()
@@ -97,7 +100,18 @@ impl Search {
                 continue;
             }
             let kept = keeper.as_mut().map(|keeper| (&mut **keeper, &past));
-            let (stop, progress) = search(&maker, &mut explorer, &mut shards, starts, &plan, kept, heed);
+            let counts = !growth.has_begun && kept.is_none() && may_be_shorter(&explorer, &shards);
+            let (stop, progress, mut rooms) =
+                search(&maker, &mut explorer, &mut shards, starts, &plan, (kept, counts), heed);
+            growth.has_begun |= rooms.is_some();
+            if let Some(narrow) = outgrown(&shards) {
+                rooms = Some(explorer.more_room(&narrow, growth.hurries_at(progress.states)));
+            }
+            if let Some(rooms) = rooms {
+                past.widening.settle(rooms);
+                anew = Begun { maker, explorer, shards, unreduced, starts: Vec::new() }.anew(&plan, &past.widening);
+                continue;
+            }
             if let Some(span) = ordered(&shards)
                 && let Some(found) = symmetry.as_mut().filter(|found| !found.unordered.is_empty())
             {
@@ -229,16 +243,83 @@ fn ordered(shards: &[Shard]) -> Option<Span> {
     shards.iter().find_map(|shard| shard.order_mattered).or(unbounded.min())
 }
 
-/// Searches until all states are explored or something ends it, with pauses for checkpoints.
+/// LIMIT: when states take so many bytes, it is counted how many values their locations have. To pack them anew costs what
+/// explorers have learned, which is soon learned again compared with what a search of that size takes.
+const CENSUS: u64 = 1 << 26;
+/// LIMIT: states of fewer words are short enough.
+const LONG: usize = 3;
+
+/// How the room of locations that take few values has grown.
+#[derive(Debug, Default)]
+struct Growth {
+    /// A census has given them room.
+    has_begun: bool,
+    /// How many states there were when it last did not suffice.
+    states: u64,
+    /// How often that was before there were twice as many as the last time.
+    hurries: u8,
+}
+
+impl Growth {
+    /// How many hurries there were, now that room does not suffice at so many states.
+    fn hurries_at(&mut self, states: u64) -> u8 {
+        self.hurries += u8::from(states < 2 * self.states);
+        self.states = self.states.max(states);
+        self.hurries
+    }
+}
+
+/// Whether a census can tell how states become shorter: it needs them all, as they are.
+fn may_be_shorter(explorer: &Explorer, shards: &[Shard]) -> bool {
+    let as_they_are =
+        |shard: &Shard| matches!(shard.store, Store::Exact(_)) && shard.orbits.is_none() && shard.reduction.is_none();
+    explorer.words() >= LONG && shards.iter().all(as_they_are)
+}
+
+/// The room that the locations of these states need, if states become much shorter with it.
+fn shorter(explorer: &mut Explorer, shards: &[Shard]) -> Option<Rooms> {
+    let words = explorer.words();
+    let tables = shards.iter().filter_map(|shard| match &shard.store {
+        Store::Exact(table) => Some(table),
+        Store::Spilled(_) | Store::Compact(_) => None,
+    });
+    explorer.census(tables.flat_map(Table::chunks).flat_map(|chunk| chunk.chunks_exact(words)))
+}
+
+/// What did not fit, if that is values of locations that had room for few, and the search can go on with more of it.
+fn outgrown(shards: &[Shard]) -> Option<Vec<&Widening>> {
+    let narrow = shards.iter().filter(|shard| !shard.widening.is_empty());
+    let narrow: Option<Vec<_>> = narrow.map(|shard| shard.is_retried.then_some(&shard.widening)).collect();
+    narrow.filter(|narrow| !narrow.is_empty())
+}
+
+impl Begun {
+    /// The same with states that have as much room as this gives them; none where the search has to begin again for that.
+    fn anew(self, plan: &Plan, widening: &Widening) -> Option<Begun> {
+        let maker = self.maker.with_room(widening);
+        let mut tireless = maker.clone().tireless();
+        let mut explorer = tireless.first().ok()?;
+        explorer.mind_interrupts(plan.settings.interrupt.clone());
+        let mut shards = packed_anew(&self.explorer, &mut explorer, self.shards).ok()?;
+        for shard in &mut shards {
+            (shard.widening, shard.is_retried) = (Widening::default(), false);
+        }
+        let maker = maker.beginning_with(&explorer);
+        Some(Begun { maker, explorer, shards, ..self })
+    }
+}
+
+/// Searches until all states are explored or something ends it, with pauses for checkpoints, and one for a census if it `counts`:
+/// then it is to go on with this room.
 fn search<'k>(
     maker: &Maker,
     explorer: &mut Explorer,
     shards: &mut [Shard],
     mut starts: Vec<u64>,
     plan: &Plan,
-    mut kept: Option<(&mut (dyn Keeper + 'k), &Past)>,
+    (mut kept, mut counts): (Option<(&mut (dyn Keeper + 'k), &Past)>, bool),
     heed: &mut Heed<'_>,
-) -> (Option<Stop>, Progress) {
+) -> (Option<Stop>, Progress, Option<Rooms>) {
     let mut progress = Progress::default();
     let crew = Crew { plan, explore: &|| maker.explorer() };
     let words = explorer.words();
@@ -246,7 +327,7 @@ fn search<'k>(
     let tells = plan.storage == Storage::Exact && shards[0].orbits.is_none();
     let mut heard = 0;
     loop {
-        let (mut paused, mut news) = (false, 0);
+        let (mut paused, mut news, mut counted) = (false, 0, false);
         let mut decide = |reports: &[Tally], depth: u64| {
             let decision = decide(reports, depth, plan, &mut progress, &mut |progress| heed.at(progress));
             let goes_on = !matches!(decision, Decision::Stop(_));
@@ -255,10 +336,20 @@ fn search<'k>(
                 news = certain;
             }
             paused = goes_on && kept.as_mut().is_some_and(|(keeper, _)| keeper.is_due());
-            if paused || news > 0 { Decision::Stop(None) } else { decision }
+            counted = goes_on
+                && counts
+                && reports.iter().map(|report| report.bytes).sum::<u64>() >= plan.census.unwrap_or(CENSUS);
+            if paused || counted || news > 0 { Decision::Stop(None) } else { decision }
         };
         let stop = crew.work(explorer, shards, &starts, words, &mut decide);
         starts = Vec::new();
+        if counted {
+            counts = false;
+            match shorter(explorer, shards) {
+                Some(rooms) => return (stop, progress, Some(rooms)),
+                None => continue,
+            }
+        }
         if news > 0 {
             heard = news;
             tell_news(maker, plan, explorer, shards, heed);
@@ -266,9 +357,9 @@ fn search<'k>(
                 continue;
             }
         }
-        let Some((keeper, past)) = &mut kept else { return (stop, progress) };
+        let Some((keeper, past)) = &mut kept else { return (stop, progress, None) };
         if shards.iter().any(|shard| !shard.widening.is_empty() || shard.store.is_full()) {
-            return (stop, progress);
+            return (stop, progress, None);
         }
         if paused || stop.is_some() {
             keep(*keeper, &maker.program, plan, explorer, maker.interner.len(), past, shards);
@@ -276,7 +367,7 @@ fn search<'k>(
             keeper.remove();
         }
         if !paused {
-            return (stop, progress);
+            return (stop, progress, None);
         }
     }
 }

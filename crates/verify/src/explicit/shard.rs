@@ -37,6 +37,8 @@ pub(crate) struct Shard {
     pub transitions: u64,
     /// How many states' steps were made by machine code.
     pub compiled: u64,
+    /// How many of them before this explorer.
+    pub compiled_before: u64,
     /// Of how many states the assumptions leave no step.
     pub blocked: u64,
     /// The next state to expand.
@@ -44,6 +46,8 @@ pub(crate) struct Shard {
     /// Conditions whose truth is unknown in some state.
     pub unknown: BTreeSet<usize>,
     pub widening: Widening,
+    /// The steps of the state for which that was found are still to be made.
+    pub is_retried: bool,
     pub unbounded: BTreeSet<Unbounded>,
     /// How often each rule ran; only whether it is 0 matters.
     pub executed: Vec<u64>,
@@ -245,10 +249,12 @@ impl Shard {
             found: Vec::new(),
             transitions: 0,
             compiled: 0,
+            compiled_before: 0,
             blocked: 0,
             next: 0,
             unknown: BTreeSet::new(),
             widening: Widening::default(),
+            is_retried: false,
             unbounded: BTreeSet::new(),
             executed: Vec::new(),
             journal: None,
@@ -276,6 +282,7 @@ impl Shard {
         let mut sent = vec![Vec::new(); mail.len()];
         let mut settles = false;
         let mut quota = 1;
+        self.compiled_before = self.compiled.saturating_sub(explorer.compiled_states());
         if self.reduction.is_some() {
             // Expanding a state determines the parts of the main rule.
             let initial = explorer.initial().first().map(|(state, _)| state.clone());
@@ -438,7 +445,7 @@ impl Shard {
                         edges.end(&expansion);
                     }
                     self.blocked += u64::from(is_blocked(explorer, plan, &expansion, &out[begin..]));
-                    self.compiled = explorer.compiled_states();
+                    self.compiled = self.compiled_before + explorer.compiled_states();
                     self.transitions += u64::from(expansion.moved);
                     made += u64::from(expansion.moved);
                     if expansion.moved == 0 || expansion.failed > 0 || expansion.faults != [0; 3] {
@@ -453,6 +460,9 @@ impl Shard {
                 }
                 Err(widening) => {
                     out.truncate(begin);
+                    if widening.is_outgrown() {
+                        (self.next, self.is_retried) = (self.next - 1, true);
+                    }
                     self.widening = widening;
                     return true;
                 }

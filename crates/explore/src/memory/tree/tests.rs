@@ -11,7 +11,7 @@ use program::FunctionId;
 use super::*;
 
 fn field(word: u32, bits: u8) -> Field {
-    Field { location: word, function: FunctionId(0), word, shift: 3, bits }
+    Field { location: word, function: FunctionId(0), word, shift: 3, bits, few: false }
 }
 
 fn ends(tree: &mut Tree, words: &[u64]) -> Option<Vec<End>> {

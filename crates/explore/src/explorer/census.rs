@@ -1,0 +1,214 @@
+//! How many bits the values of each location need, as far as a search has come.
+//!
+//! In: states that it has found, and those on a walk from the last of them. Out: [`Rooms`] for locations that take few values
+//! ([`crate::packed::few`]), more of it where that did not suffice, and the states as they are with that room. INVARIANT: a search
+//! that needs more room has come twice as far as the last time, or the room of all locations grows, and at last all fields are full again; so
+//! states are packed anew a few times at most.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use rustc_hash::FxHashSet;
+
+use crate::explorer::Explorer;
+use crate::packed::codes::Codes;
+use crate::packed::encoding::Encoding;
+use crate::packed::widening::{Rooms, Widening};
+use crate::packed::words::{Field, NOWHERE};
+
+/// LIMIT: with more values a location has a full field.
+const MANY: usize = 1 << 16;
+/// LIMIT: the states of a walk.
+const WALK: usize = 1 << 12;
+/// LIMIT: how often all room may grow.
+const HURRIES: u8 = 4;
+
+/// Two explorers have other fields.
+#[derive(Debug)]
+pub struct Unlike;
+
+impl Explorer {
+    /// The room that locations need in these states and others; none if states would hardly become shorter. Afterwards the explorer has
+    /// made steps that no search asked for.
+    pub fn census<'s>(&mut self, states: impl Iterator<Item = &'s [u64]>) -> Option<Rooms> {
+        let encoding = Arc::clone(&self.encoding);
+        let mut met = Met::new(&encoding.fields, self.words());
+        self.initial().iter().for_each(|(state, _)| met.add(state));
+        let mut last = None;
+        states.for_each(|state| {
+            met.add(state);
+            last = Some(state);
+        });
+        let rooms = self.rooms(&met);
+        let bits = |field: &Field| rooms.0.get(&field.location).copied().unwrap_or(field.bits);
+        let needed: usize = encoding.fields.iter().map(|field| usize::from(bits(field))).sum();
+        // To begin again takes some time.
+        if needed.div_ceil(64) * 4 > self.words() * 3 {
+            return None;
+        }
+        self.walk(last?, &mut met);
+        Some(self.rooms(&met))
+    }
+
+    /// Meets the states of a walk: what comes up later in a run is told sooner by it than by all states up to some distance.
+    fn walk(&mut self, from: &[u64], met: &mut Met<'_>) {
+        let (mut state, mut successors, mut random) = (from.to_vec(), Vec::new(), 1u64);
+        for _ in 0..WALK {
+            successors.clear();
+            if self.expand(&state, &mut successors).is_err() {
+                return;
+            }
+            let count = successors.len() / state.len();
+            random = random.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            match successors.chunks_exact(state.len()).nth((random >> 33) as usize % count.max(1)) {
+                Some(next) => state.copy_from_slice(next),
+                None => state.copy_from_slice(from),
+            }
+            met.add(&state);
+        }
+    }
+
+    fn rooms(&self, met: &Met<'_>) -> Rooms {
+        let mut rooms = BTreeMap::new();
+        for (index, (field, codes)) in (0..).zip(self.encoding.fields.iter().zip(&met.codes)) {
+            if field.location == NOWHERE || self.encoding.kept.fields.contains(&index) {
+                continue;
+            }
+            let narrower = match &self.encoding.codes[field.function.0 as usize] {
+                // Their codes need no dictionary unless they need no bits either.
+                Some(Codes::Listed { .. }) => codes.len() == 1 && field.bits > 0,
+                Some(Codes::Interned) => codes.len() <= MANY,
+                Some(Codes::InPlace(_)) | None => false,
+            };
+            if narrower {
+                let spare = u8::from(codes.len() > 1) + u8::from(codes.len() > 4);
+                rooms.insert(field.location, bits(codes.len()) + spare);
+            }
+        }
+        Rooms(rooms)
+    }
+
+    /// The states of a search as this explorer packs them, if it has the same fields as that search's, with the same interner;
+    /// those of that search come one after the other.
+    pub fn moved<'s>(
+        &mut self,
+        from: &Explorer,
+        states: impl Iterator<Item = &'s [u64]>,
+        mut visit: impl FnMut(&[u64]),
+    ) -> Result<(), Unlike> {
+        let (old, new) = (Arc::clone(&from.encoding), Arc::clone(&self.encoding));
+        let place = |field: &Field| (field.location, field.function);
+        let alike = Arc::ptr_eq(from.view.shared(), self.view.shared())
+            && old.constant_rest == new.constant_rest
+            && (old.rest, old.origin) == (new.rest, new.origin)
+            && old.kept == new.kept
+            && old.fields.iter().map(place).eq(new.fields.iter().map(place));
+        if !alike {
+            return Err(Unlike);
+        }
+        let mut by_word: Vec<Vec<usize>> = vec![Vec::new(); old.words];
+        for (index, field) in old.fields.iter().enumerate().filter(|(_, field)| field.bits > 0) {
+            by_word[field.word as usize].push(index);
+        }
+        let mut next = vec![0; new.words];
+        let mut last: Option<&[u64]> = None;
+        for state in states {
+            for (word, fields) in by_word.iter().enumerate() {
+                let differs = last.map_or(u64::MAX, |last| last[word] ^ state[word]);
+                for index in fields.iter().filter(|index| old.fields[**index].mask() & differs != 0) {
+                    self.move_field(&old, &new, *index, state, &mut next)?;
+                }
+            }
+            if last.is_none() {
+                for index in (0..old.fields.len()).filter(|index| old.fields[*index].bits == 0) {
+                    self.move_field(&old, &new, index, state, &mut next)?;
+                }
+            }
+            last = Some(state);
+            visit(&next);
+        }
+        Ok(())
+    }
+
+    fn move_field(
+        &mut self,
+        old: &Encoding,
+        new: &Encoding,
+        index: usize,
+        state: &[u64],
+        next: &mut [u64],
+    ) -> Result<(), Unlike> {
+        let (from, to) = (old.fields[index], new.fields[index]);
+        let same = from.location == NOWHERE
+            || from.few == to.few && old.codes[from.function.0 as usize] == new.codes[from.function.0 as usize];
+        let code = match same {
+            true => from.code(state),
+            false => {
+                let value = old.value(from, state, &mut self.view);
+                new.code(to, &value, &mut self.view).map_err(|_| Unlike)?
+            }
+        };
+        to.put(code, next);
+        Ok(())
+    }
+
+    /// More room, for locations that have outgrown theirs above all. The search is in a hurry if it has not come far since the
+    /// last time, so many times by now.
+    pub fn more_room(&mut self, narrow: &[&Widening], hurries: u8) -> Rooms {
+        let mut rooms = BTreeMap::new();
+        if hurries > HURRIES {
+            return Rooms(rooms);
+        }
+        let sizes = self.view.shared().sizes();
+        let is_outgrown = |field: &Field| narrow.iter().any(|narrow| narrow.outgrown.contains(&field.location));
+        let outgrown = self.encoding.fields.iter().filter(|field| field.few && is_outgrown(field));
+        let functions: Vec<_> = outgrown.map(|field| field.function).collect();
+        for field in self.encoding.fields.iter().filter(|field| field.few) {
+            let size = sizes.get(field.location as usize).copied().unwrap_or(0);
+            let more = match (is_outgrown(field), size) {
+                (true, _) => 2,
+                // What holds for one argument of a function often holds for others, too.
+                (false, ..=1) => u8::from(functions.contains(&field.function)) + hurries / 2,
+                (false, _) => u8::from(bits(size) == field.bits) + hurries,
+            };
+            let full = match &self.encoding.codes[field.function.0 as usize] {
+                Some(Codes::Listed { values, undefined }) => bits(values.len() + usize::from(*undefined)),
+                _ => bits(MANY) + 1,
+            };
+            if field.bits + more < full {
+                rooms.insert(field.location, field.bits + more);
+            }
+        }
+        Rooms(rooms)
+    }
+}
+
+/// How many bits so many codes need.
+fn bits(count: usize) -> u8 {
+    (usize::BITS - count.saturating_sub(1).leading_zeros()) as u8
+}
+
+/// The codes of each field in some states.
+struct Met<'f> {
+    fields: &'f [Field],
+    codes: Vec<FxHashSet<u64>>,
+    last: Vec<u64>,
+    any: bool,
+}
+
+impl Met<'_> {
+    fn new(fields: &[Field], words: usize) -> Met<'_> {
+        Met { fields, codes: vec![FxHashSet::default(); fields.len()], last: vec![0; words], any: false }
+    }
+
+    fn add(&mut self, state: &[u64]) {
+        for (field, codes) in self.fields.iter().zip(&mut self.codes) {
+            let word = field.word as usize;
+            if !self.any || (self.last[word] ^ state[word]) & field.mask() != 0 {
+                codes.insert(field.code(state));
+            }
+        }
+        self.last.copy_from_slice(state);
+        self.any = true;
+    }
+}
