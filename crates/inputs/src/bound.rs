@@ -5,9 +5,9 @@
 
 use std::collections::BTreeSet;
 use std::ops::Deref;
+use std::sync::Arc;
 
-use machine::Bounds;
-use machine::Value;
+use machine::{Bounds, Limits, Machine, Show, Value};
 use program::{FunctionId, FunctionKind, Program};
 use simulate::read_value;
 
@@ -33,10 +33,25 @@ pub fn read(program: &Program, texts: &[String]) -> Result<Bounds, Refused> {
             return Err(wrong(format!("`{}` is no monitored or shared function", name.trim())));
         }
         for function in inputs {
-            bounds.insert(function, values_of(program, function, values).map_err(wrong)?);
+            let values = values_of(program, function, values).map_err(wrong)?;
+            all_inside(program, function, &values).map_err(wrong)?;
+            bounds.insert(function, values);
         }
     }
     Ok(bounds)
+}
+
+/// Whether the domain of a function contains the values, unless it may grow: the environment gives no others.
+fn all_inside(program: &Program, function: FunctionId, values: &[Value]) -> Result<(), String> {
+    let domain = program.function(function).codomain;
+    if !program.constant_domains()[domain.0 as usize] {
+        return Ok(());
+    }
+    let mut machine = Machine::new(Arc::new(program.clone()), Limits::default());
+    match values.iter().find(|value| !machine.contains(domain, value)) {
+        Some(value) => Err(format!("{} is not in {}", value.show(program), program.domain(domain).name)),
+        None => Ok(()),
+    }
 }
 
 /// Reads the names of inputs that may also be undef.
