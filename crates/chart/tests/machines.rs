@@ -84,6 +84,44 @@ fn faults(cell: &str, sequencer: &str) -> Vec<String> {
         .collect()
 }
 
+/// The ids and texts of what `chart check` tells of a model.
+fn told(drawn: &chart::Chart, model: &str) -> Vec<String> {
+    let mut files = files(&SEQUENCER.replace("import Messages", "import ../Messages"));
+    let checked = model::check(SourceFile::new("Cell.asm", model), &mut files);
+    assert_eq!(checked.diagnostics, [], "{model}");
+    let probed = chart::probed(drawn, model).expect("the model parses");
+    let told = chart::check(drawn, &probed, &checked, &mut NoSolver);
+    told.iter().map(|fault| format!("{}: {}", fault.id, fault.message)).collect()
+}
+
+#[test]
+fn an_elaboration_may_have_a_rule_beside_its_machine() {
+    let cell = CELL.replace("by Sequencer", "by Sequencer {r_stage[$c]}");
+    let loaded = load(&cell, SEQUENCER);
+    assert_eq!(loaded.diagnostics, []);
+    let mut drawn = loaded.chart;
+    let mut files = files(&SEQUENCER.replace("import Messages", "import ../Messages"));
+    let known = Known::completed(&mut drawn, "Imports.asm", &mut files).expect("the imports have no faults");
+    assert_eq!(chart::unbuilt(&drawn, &known), []);
+    let built = build(&drawn, &known, None).expect("there was no file");
+    assert_eq!(built.to_write, ["r_stage"]);
+    for part in ["case sequencer_decide: <<r_stage(Scheduler)>>", "case sequencer_decide: r_end_sequencer_decide[]"] {
+        assert!(built.text.contains(part), "{part} is missing in\n{}", built.text);
+    }
+    // What is written by hand is kept. It may look at what the machine decides, and leaves that to the machine.
+    let stub = "rule r_stage($c in Scheduler) = skip\n";
+    assert!(built.text.contains(stub), "{}", built.text);
+    let written = |rule: &str| built.text.replace(stub, &format!("rule r_stage($c in Scheduler) =\n\t\t{rule}\n"));
+    let model = written("if sequencer_mode = SEQUENCER_BUSY then sv_staged(orders) := clock endif");
+    assert_eq!(told(&drawn, &model), [""; 0]);
+    assert!(build(&drawn, &known, Some(&model)).expect("it parses").text.contains("sv_staged(orders) := clock"));
+    for update in ["sequencer_mode := SEQUENCER_IDLE", "orders_value(1) := true", "lamp := 3"] {
+        let function = update.split([' ', '(']).next().unwrap_or_default();
+        let message = format!("`r_stage` updates `{function}`, which is for the machines of components alone");
+        assert_eq!(told(&drawn, &written(update)), [format!("system-differs: {message}")]);
+    }
+}
+
 /// The built text, which has no faults.
 fn built() -> String {
     let mut drawn = load(CELL, SEQUENCER).chart;
@@ -182,9 +220,9 @@ fn faults_of_the_chart() {
         ],
     );
     check(
-        "elaborate look 1 ms",
-        "elaborate look 1 ms by Sequencer {r_look[]}",
-        &["component-machine: this elaboration has a machine and a rule (remove one of the two)"],
+        "read orders 1 ms",
+        "read orders 1 ms by Sequencer",
+        &["component-machine: this phase has a machine and computes nothing (write it after an `elaborate` phase)"],
     );
     check(
         "\t\telaborate look 1 ms\n",

@@ -11,6 +11,7 @@ use syntax::ast::{self, AstNode, Term};
 use syntax::{FileId, Span, SyntaxKind, SyntaxNode};
 
 use crate::build::OWNED;
+use crate::component::updated;
 
 /// A text without its layout, and its place.
 pub(super) type Placed = (String, Span);
@@ -24,6 +25,8 @@ pub(super) struct Ground {
     pub(super) given: BTreeMap<String, Given>,
     /// Rules and invariants by name; the main rule and agents as `main rule` and `agent D`.
     pub(super) texts: BTreeMap<String, Placed>,
+    /// What rules update: the rule, and the function.
+    pub(super) updates: Vec<(String, Placed)>,
     /// Paths of imports.
     pub(super) imports: Vec<String>,
     /// The model's name.
@@ -72,7 +75,11 @@ impl Ground {
         }
         let definitions = tree.definitions();
         for rule in definitions.iter().flat_map(|definitions| definitions.rules()) {
-            reader.text(rule.name().map(|name| name.text().to_string()), rule.syntax(), &mut ground);
+            let name = rule.name().map(|name| name.text().to_string());
+            let all = rule.syntax().descendants().filter(|node| node.kind() == SyntaxKind::UPDATE_RULE);
+            let updated = all.filter_map(|update| Some((updated(&update)?, reader.span(&update))));
+            ground.updates.extend(updated.map(|update| (name.clone().unwrap_or_default(), update)));
+            reader.text(name, rule.syntax(), &mut ground);
         }
         for property in definitions.iter().flat_map(|definitions| definitions.properties()) {
             if let ast::Property::Invariant(invariant) = property {

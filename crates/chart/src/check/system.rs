@@ -4,8 +4,8 @@
 //! terms, with both places. The two texts are compared as tables ([`Ground`]): for each element the value of each
 //! function. A consequence of a reported difference (a budget of a phase's time, the order at a lock of a period) is
 //! not reported again. INVARIANT: if nothing is reported, building would change neither an element, an initial value,
-//! the main rule, the program of the agents, nor the rule and the invariants that every system has. Elaborations are
-//! not compared: they are written by hand.
+//! the main rule, the program of the agents, nor the rule and the invariants that every system has. Rules of elaborations
+//! are not compared, since they are written by hand; but none of them updates what belongs to a component's machine.
 
 use std::collections::BTreeSet;
 
@@ -14,7 +14,7 @@ use syntax::{Diagnostic, FileId, Span};
 use super::ground::{Given, Ground, plain};
 use crate::chart::Chart;
 use crate::fault;
-use crate::system::{Component, System, length};
+use crate::system::{Action, Component, System, length};
 
 /// The differences between a chart's system and the model in a file.
 pub(super) fn compare(chart: &Chart, system: &System, file: FileId, text: &str) -> Vec<Diagnostic> {
@@ -25,6 +25,7 @@ pub(super) fn compare(chart: &Chart, system: &System, file: FileId, text: &str) 
     comparison.elements();
     comparison.values();
     comparison.texts();
+    comparison.intruders();
     comparison.faults
 }
 
@@ -250,17 +251,34 @@ impl Comparison<'_> {
         phases.into_iter().any(|(name, _)| !self.built.elements.contains_key(name))
     }
 
-    fn texts(&mut self) {
-        let elaborations: BTreeSet<&str> = self
-            .system
-            .components
-            .iter()
-            .flat_map(|component| &component.phases)
+    /// The rules of elaborations.
+    fn elaborations(&self) -> BTreeSet<&str> {
+        let phases = self.system.components.iter().flat_map(|component| &component.phases);
+        phases
             .filter_map(|phase| match &phase.action {
-                crate::system::Action::Elaborate(Some(link)) => Some(link.name.as_str()),
-                _ => None,
+                Action::Elaborate(link) => link.as_ref().map(|link| link.name.as_str()),
+                Action::Read(_) | Action::Write(_) => None,
             })
-            .collect();
+            .collect()
+    }
+
+    /// Rules written by hand that update what belongs to a component's machine: what is proved and replayed of the machine alone would not
+    /// be what the model does.
+    fn intruders(&mut self) {
+        let elaborations = self.elaborations();
+        let is_built = |rule: &str| self.built.texts.contains_key(rule) && !elaborations.contains(rule);
+        let made = &self.system.computing.declarations;
+        let by_hand = self.model.updates.iter().filter(|(rule, _)| !is_built(rule));
+        let found: Vec<_> =
+            by_hand.filter(|(_, (name, _))| made.iter().any(|one| one.name == *name)).cloned().collect();
+        for (rule, (function, place)) in found {
+            let message = format!("`{rule}` updates `{function}`, which is for the machines of components alone");
+            self.tell(self.system.span, message, Some((place, "the model's")));
+        }
+    }
+
+    fn texts(&mut self) {
+        let elaborations = self.elaborations();
         let mut found = Vec::new();
         for (name, (text, _)) in self.built.texts.iter().filter(|(name, _)| !elaborations.contains(name.as_str())) {
             match self.model.texts.get(name) {

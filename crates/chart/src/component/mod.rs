@@ -17,6 +17,7 @@ mod types;
 
 pub(crate) use compose::{Carrying, compose};
 pub(crate) use cut::{Cut, Reduction};
+pub(crate) use reads::updated;
 pub(crate) use slice::slice;
 
 use model::Loader;

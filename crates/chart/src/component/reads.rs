@@ -34,7 +34,7 @@ pub(super) fn is_plain(tree: &SyntaxNode) -> bool {
 }
 
 /// The function that an update names.
-pub(super) fn updated(update: &SyntaxNode) -> Option<String> {
+pub(crate) fn updated(update: &SyntaxNode) -> Option<String> {
     let target = update.children().next().filter(|target| target.kind() == SyntaxKind::FUNCTION_TERM)?;
     let mut tokens = target.children_with_tokens().filter_map(|element| element.into_token());
     tokens.find(|token| token.kind() == SyntaxKind::FUNCTION_ID).map(|token| token.text().to_string())

@@ -47,11 +47,8 @@ pub(super) fn misplaced(system: &System) -> Vec<Diagnostic> {
         for phase in &component.phases {
             let Some(named) = &phase.machine else { continue };
             match (&phase.action, first) {
-                (Action::Elaborate(Some(link)), _) => faults.push(fault::with_rule(named.span, link.span)),
-                (Action::Elaborate(None), Some(first)) => {
-                    faults.push(fault::second(named.span, &component.name, first))
-                }
-                (Action::Elaborate(None), None) => first = Some(named.span),
+                (Action::Elaborate(_), Some(first)) => faults.push(fault::second(named.span, &component.name, first)),
+                (Action::Elaborate(_), None) => first = Some(named.span),
                 (Action::Read(_) | Action::Write(_), _) => faults.push(fault::no_elaboration(named.span)),
             }
         }

@@ -22,14 +22,6 @@ pub(crate) fn unusable(span: Span, name: &str, reason: &str, file: &str) -> Diag
         ))
 }
 
-/// A machine and a rule for one elaboration.
-pub(crate) fn with_rule(span: Span, rule: Span) -> Diagnostic {
-    Diagnostic::error(MACHINE, span, "this elaboration has a machine and a rule")
-        .here("the machine says what it computes")
-        .with_label(rule, "and so does the rule")
-        .with_help("remove one of the two")
-}
-
 /// A second machine in one component.
 pub(crate) fn second(span: Span, component: &str, first: Span) -> Diagnostic {
     Diagnostic::error(MACHINE, span, format!("a second machine in the component `{component}`"))
