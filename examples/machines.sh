@@ -5,7 +5,7 @@
 set -eu
 groundstate=$(realpath "$1")
 shift
-[ $# -gt 0 ] || set -- pick_and_place object_tracking micro_assembly press_cell
+[ $# -gt 0 ] || set -- visual_servoing pick_and_place object_tracking micro_assembly press_cell
 cd "$(dirname "$0")"
 out=$(mktemp -d)
 trap 'rm -r "$out"' EXIT
@@ -51,17 +51,41 @@ found() {
 # fails SCENARIO FILE OLD NEW: the fault in the machine makes the scenario of the whole robot fail.
 fails() {
     seeded "$2" "$3" "$4"
-    expect 0 "" "$groundstate" chart build "$robot"/*.chart
+    expect 0 "" "$groundstate" chart build "$robot/$chart.chart"
     expect 1 "^FAIL $1" "$groundstate" test "$robot/$1.avalla"
 }
 
 # holds CHART MACHINE…: the machines do, whatever they read, before the first datum of a channel too; and the model of the robot is made of them.
 holds() {
-    expect 0 "" "$groundstate" chart check "$program/$1.chart"
+    chart=$1
+    expect 0 "" "$groundstate" chart check "$program/$chart.chart"
     shift
     for machine in "$@"; do
         expect 0 "^holds " "$groundstate" verify "$program/$machine.asm"
     done
+}
+
+visual_servoing() {
+    holds ControllerSystem Servoing Arm
+    found ltlSpec_guides Servoing.asm "hasLaw, 0]" "true, 0]"
+    found ltlSpec_guides Servoing.asm "else SEARCHING endif, false" "else SEARCHING endif, hasLaw"
+    found ltlSpec_known Servoing.asm "isFollowing and unseen < patience" "unseen < patience"
+    found ltlSpec_atOnce Servoing.asm "if isSeen then" "if isSeen and panel != LOST then"
+    found ltlSpec_converged Servoing.asm "isClose and hasLaw then" "isClose then"
+    found ctlSpec_counts Servoing.asm "COVERED, hasLaw, unseen + 1" "COVERED, hasLaw, max(unseen, 1)"
+    found ltlSpec_lost Servoing.asm "isFollowing or panel = LOST then LOST" "panel != WITHOUT_TARGET then LOST"
+    found inv_unseen Servoing.asm "false, 0]
+				endif" "false, unseen]
+				endif"
+    found ltlSpec_target Servoing.asm "if not hasTarget then" "if not hasTarget and not isFollowing then"
+    found ltlSpec_guided Arm.asm "if isGuided then" "if isGuided and arm != STOPPING then"
+    found ltlSpec_stops Arm.asm "if arm = FOLLOWING or arm = STOPPING" "if arm = STOPPING"
+    found ltlSpec_rests Arm.asm "arm = STOPPING and not isStill then" "arm = STOPPING and isStill then"
+    # Each machine is right by itself; for how many images discs are made up for is told by the scenario alone.
+    fails ControllerModes Servoing.asm "patience = 10" "patience = 9"
+    # A rule written by hand that decides in the machine's place.
+    seeded ControllerSystem.asm "sb_staged(vs_to_robot) := sb_received(camera_to_vs)" "guiding := true"
+    expect 1 "updates \`guiding\`, which is for the machines of components alone" "$groundstate" chart check "$robot/$chart.chart"
 }
 
 pick_and_place() {

@@ -1,9 +1,12 @@
-/* Made from ControllerSystem.chart. The elements, the main rule and the initial state are written anew from there; the
-   elaborations are written by hand, and kept. */
+/* Made from ControllerSystem.chart. The elements, the main rule, the initial state and what comes from its components' machines
+   are written anew from there; the rules of the elaborations are written by hand, and kept. */
 asm ControllerSystem
 
 import ../../library/std/StandardLibrary
 import ../../library/patterns/ControlTask
+import CTLLibrary
+import LTLLibrary
+import Guiding
 
 signature:
 	static operator: Scheduler
@@ -58,6 +61,41 @@ signature:
 	static encoder_write_motor: SchedulePhase
 	static encoder_wait: SchedulePhase
 
+	// There is a target
+	monitored hasTarget: Boolean
+
+	// All discs are in the image
+	monitored isSeen: Boolean
+
+	// The law gives a set-point
+	monitored hasLaw: Boolean
+
+	// The features are at the target
+	monitored isClose: Boolean
+
+	// Panel: what visual servoing does
+	out panel: ServoMode
+
+	// Lamp: set-points are given
+	out guiding: Boolean
+
+	domain Visual_servoingImages subsetof Integer
+
+	controlled visual_servoing_unseen: Visual_servoingImages
+
+	static visual_servoing_patience: Visual_servoingImages
+
+	derived visual_servoing_isFollowing: Boolean
+
+	// The set-point is not too old
+	monitored isGuided: Boolean
+
+	// The camera is not moved
+	monitored isStill: Boolean
+
+	// Panel: what the arm does
+	out arm: ArmMode
+
 definitions:
 	// Targets are numbered.
 	rule r_planTarget($c in Scheduler) =
@@ -91,6 +129,70 @@ definitions:
 	invariant inv_patterns over sem_state, indexRead: patternsSound
 
 	invariant inv_deadlines over task_deadlinesMissed: (forall $t in Task with task_deadlinesMissed($t) = 0)
+
+	domain Visual_servoingImages = {0 : 10}
+
+	function visual_servoing_patience = 10
+
+	function visual_servoing_isFollowing = panel = TRACKING or panel = CONVERGED or panel = COVERED
+
+	rule r_visual_servoing_is($mode in ServoMode, $guiding in Boolean, $unseen in Visual_servoingImages) =
+		par
+			panel := $mode
+			guiding := $guiding
+			visual_servoing_unseen := $unseen
+		endpar
+
+	// a step of Servoing, the machine of visual_servoing
+	rule r_visual_servoing_Main =
+		if not hasTarget then
+			r_visual_servoing_is[WITHOUT_TARGET, false, 0]
+		else
+			if isSeen then
+				r_visual_servoing_is[if isClose and hasLaw then CONVERGED else TRACKING endif, hasLaw, 0]
+			else
+				if visual_servoing_isFollowing and visual_servoing_unseen < visual_servoing_patience then
+					r_visual_servoing_is[COVERED, hasLaw, visual_servoing_unseen + 1]
+				else
+					r_visual_servoing_is[
+						if visual_servoing_isFollowing or panel = LOST then LOST else SEARCHING endif,
+						false,
+						0]
+				endif
+			endif
+		endif
+
+	// the end of vs_elaborate
+	rule r_end_vs_elaborate =
+		r_visual_servoing_Main[]
+
+	// a step of Arm, the machine of robot
+	rule r_robot_Main =
+		if isGuided then
+			arm := FOLLOWING
+		else
+			arm := if arm = FOLLOWING or arm = STOPPING and not isStill then STOPPING else STANDING endif
+		endif
+
+	// the end of robot_elaborate
+	rule r_end_robot_elaborate =
+		r_robot_Main[]
+
+	// what is computed when an elaboration ends
+	rule r_endOfElaboration($p in SchedulePhase) =
+		switch $p
+			case vs_elaborate: r_end_vs_elaborate[]
+			case robot_elaborate: r_end_robot_elaborate[]
+		endswitch
+
+	// what each task does when it is its turn
+	rule r_computingTask =
+		par
+			r_scheduler_execute[self]
+			if action(scheduler_currentPhase(self)) = ELABORATING then
+				if tElapsed(self) then r_endOfElaboration[scheduler_currentPhase(self)] endif
+			endif
+		endpar
 
 	main rule r_Main =
 		par
@@ -307,4 +409,8 @@ default init s0:
 			case encoder_acquire: <<r_readEncoders(Scheduler)>>
 			otherwise undef
 		endswitch
-	agent Scheduler: r_controlTask[]
+	function panel = WITHOUT_TARGET
+	function guiding = false
+	function visual_servoing_unseen = 0
+	function arm = STANDING
+	agent Scheduler: r_computingTask[]

@@ -66,14 +66,18 @@ void DiscTracker::expect(const Pixels& pixels) noexcept {
     expecting_ = true;
 }
 
+void DiscTracker::give_up() noexcept {
+    expect(present_.pixels);
+    present_ = {};
+}
+
 const Tracked& DiscTracker::look(ConstFrameView image, std::int64_t captured_ns) {
     if (present_.track == Track::searching) {
         search(image);
     } else {
         follow(image, captured_ns);
         if (present_.predicted_images > settings_.most_predicted) {
-            expect(present_.pixels);
-            present_ = {};
+            give_up();
             search(image);
         }
     }

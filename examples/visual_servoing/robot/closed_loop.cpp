@@ -22,16 +22,16 @@ Eigen::Isometry3d looking(const Eigen::Vector3d& from, double turn) {
     return pose;
 }
 
-// The hook of visual servoing, which fails from some instant on.
+// Visual servoing, which fails from some instant on, if it is to.
 template <Clock C>
-class FailingServoing final : public VisualServoing {
+class FailingServoing final : public ServoingByImages {
   public:
-    FailingServoing(C& clock, VisualServoing& servoing, const LoopSettings& settings)
-        : clock_{clock}, servoing_{servoing}, fault_{settings.hook_fault},
+    FailingServoing(C& clock, const LoopSettings& settings, Now now, const ServoingSettings& servoing, std::size_t sights)
+        : ServoingByImages{std::move(now), servoing, sights}, clock_{clock}, fault_{settings.hook_fault},
           from_ns_{clock.now_ns() + static_cast<std::int64_t>(settings.hook_fails_s * 1e9)} {}
 
     bool set_point(const Cycle& cycle, const In& in, Out& out) override {
-        const bool ready = servoing_.set_point(cycle, in, out);
+        const bool ready = ServoingByImages::set_point(cycle, in, out);
         if (clock_.now_ns() < from_ns_) {
             return ready;
         }
@@ -50,7 +50,6 @@ class FailingServoing final : public VisualServoing {
 
   private:
     C& clock_;
-    VisualServoing& servoing_;
     HookFault fault_;
     std::int64_t from_ns_;
 };
@@ -72,18 +71,15 @@ Loop run(const LoopSettings& settings, C& clock) {
     ImageGrabber grabber{[&](FrameView into, Watchdog& watchdog) { return camera->grab(into, watchdog); }};
     ServoingSettings servoing;
     servoing.lens = cell.settings().lens;
-    loop.servoing = std::make_unique<ServoingByImages>(now, servoing, periods(10'000'000));
+    loop.servoing = std::make_unique<FailingServoing<C>>(clock, settings, now, servoing, periods(10'000'000));
     loop.robot = std::make_unique<ArmController>(now, kinematics::example_arm(), RobotSettings{}, periods(5'000'000));
     loop.motor = std::make_unique<JointDrives>(
         now, [&cell](std::int64_t at_ns, const Joints& velocity) { cell.drive(at_ns, velocity); }, kinematics::FollowerSettings{},
         periods(1'000'000));
     JointEncoders encoders{now, [&cell](std::int64_t at_ns) { return cell.measured(at_ns); }};
 
-    FailingServoing<C> failing{clock, *loop.servoing, settings};
-    VisualServoing& visual_servoing =
-        settings.hook_fault == HookFault::none ? static_cast<VisualServoing&>(*loop.servoing) : failing;
     loop.account = closed_loop::run_tasks<System>(
-        clock, Hooks{sender, grabber, visual_servoing, *loop.robot, *loop.motor, encoders}, settings.run);
+        clock, Hooks{sender, grabber, *loop.servoing, *loop.robot, *loop.motor, encoders}, settings.run);
     loop.frames = camera->account();
     const std::int64_t end_ns = loop.origin_ns + settings.run.span_ns;
     const Eigen::Isometry3d goal = cell.settings().target.pose * loop.goals.back().camera;

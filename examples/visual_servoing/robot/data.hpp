@@ -1,4 +1,5 @@
-// What the channels of ControllerSystem.chart carry: a struct for each, of its name. Plain memory, SI units, radians.
+// What the channels of ControllerSystem.chart carry: a struct for each, of its name. Plain memory, SI units, radians. The modes that
+// the operator sees are generated.
 //
 // `captured_ns` is when the camera took the image that a datum goes back to, on the clock of the run: what its age counts
 // from. `valid` is asked before a datum is handed over.

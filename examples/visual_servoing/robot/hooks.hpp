@@ -1,9 +1,13 @@
 // What the components of the controller do: one class each, implementing the hooks of ControllerSystem.chart.
 //
+// Whether the discs are searched, tracked or lost, whether set-points are given, and whether the arm follows them or comes to rest is in
+// Servoing.asm and Arm.asm. Here pictures become features, and these become velocities and positions.
+//
 // Each keeps what it did in a recording of its own, in memory reserved before; nobody reads it before the run has ended.
 // No hook throws, allocates (but the whole-image search) or waits.
 #pragma once
 
+#include <climits>
 #include <functional>
 #include <memory>
 #include <vector>
@@ -14,7 +18,7 @@
 #include <groundstate/vision/disc_tracker.hpp>
 
 #include "cell.hpp"
-#include "generated/controller_system.hpp"
+#include "generated/controller_system_machines.hpp"
 
 namespace controller_system {
 
@@ -58,7 +62,9 @@ class ImageGrabber final : public Camera {
 struct ServoingSettings {
     groundstate::servo::Intrinsics lens{};
     groundstate::servo::ServoSettings law{.gain = {3.0, 0.9, 12.0}};
-    groundstate::vision::TrackerSettings tracker{.discs = {.dark = false}};
+    /// How many images are made up for, the machine says.
+    groundstate::vision::TrackerSettings tracker{.discs = {.dark = false}, .most_predicted = INT_MAX};
+    double close = 5e-3;  ///< error of the features, in the image plane at distance 1: near enough to the target
     /// Images kept for looking at afterwards: so long after a target came, for so many targets.
     std::vector<std::int64_t> keep_after_ns{100'000'000, 600'000'000, 2'000'000'000};
     std::size_t targets_kept = 2;
@@ -69,6 +75,7 @@ struct Sight {
     std::int64_t at_ns = 0;
     std::int64_t captured_ns = 0;
     std::int64_t target = 0;  ///< its number; 0: none yet
+    ServoMode mode = ServoMode::WITHOUT_TARGET;
     groundstate::vision::Tracked tracked{};
     groundstate::servo::Command command{};
 };
@@ -81,11 +88,18 @@ struct Kept {
     std::unique_ptr<groundstate::Frame<640, 480>> frame = std::make_unique<groundstate::Frame<640, 480>>();
 };
 
-/// Follows the discs and says how the camera has to move.
-class ServoingByImages final : public VisualServoing {
+/// The machine says what is searched and followed, and whether a set-point is given; here is what is seen, and the set-point.
+class ServoingByImages : public VisualServoingMachine {
   public:
     ServoingByImages(Now now, const ServoingSettings& settings, std::size_t sights);
+    void before_sensors(const Cycle& cycle, const In& in) override;
+    bool has_target(const Cycle&) override { return target_ != 0; }
+    bool is_seen(const Cycle&) override { return sight_.tracked.track == groundstate::vision::Track::tracking; }
+    bool has_law(const Cycle&) override { return sight_.tracked && sight_.command; }
+    bool is_close(const Cycle&) override { return sight_.tracked && sight_.command.error < settings_.close; }
     bool set_point(const Cycle& cycle, const In& in, Out& out) override;
+    void panel(const Cycle&, ServoMode) override {}
+    void guiding(const Cycle&, bool) override {}
 
     const std::vector<Sight>& sights() const noexcept { return sights_; }
     const std::vector<Kept>& kept() const noexcept { return kept_; }
@@ -93,6 +107,7 @@ class ServoingByImages final : public VisualServoing {
     long searches() const noexcept { return tracker_.searches(); }
 
   private:
+    void aim(const Targets& target);
     void keep(const CameraToVs& image);
 
     Now now_;
@@ -100,6 +115,7 @@ class ServoingByImages final : public VisualServoing {
     groundstate::vision::DiscTracker tracker_;
     groundstate::servo::View desired_{};
     std::int64_t target_ = 0;
+    Sight sight_{};  ///< of this cycle
     std::vector<Sight> sights_{};
     std::vector<Kept> kept_{};
     std::size_t keeping_ = 0;       ///< kept so far
@@ -123,11 +139,15 @@ struct Motion {
     bool holding = true;
 };
 
-/// Turns the camera's twist into positions and velocities of the joints.
-class ArmController final : public Robot {
+/// The machine says whether the camera follows the set-points; here its twist becomes positions and velocities of the joints.
+class ArmController final : public RobotMachine {
   public:
     ArmController(Now now, const groundstate::kinematics::ArmModel& arm, const RobotSettings& settings, std::size_t motions);
+    void before_sensors(const Cycle& cycle, const In& in) override;
+    bool is_guided(const Cycle&) override { return is_guided_; }
+    bool is_still(const Cycle&) override { return motion_.twist().isZero(0); }
     bool control(const Cycle& cycle, const In& in, Out& out) override;
+    void arm(const Cycle&, ArmMode) override {}
 
     const std::vector<Motion>& motions() const noexcept { return motions_; }
 
@@ -135,7 +155,9 @@ class ArmController final : public Robot {
     Now now_;
     groundstate::kinematics::CameraMotion motion_;
     RobotSettings settings_;
+    std::int64_t now_ns_ = 0;  ///< when the sensors were asked
     std::int64_t last_ns_ = -1;
+    bool is_guided_ = false;
     std::vector<Motion> motions_{};
 };
 

@@ -29,17 +29,23 @@ ArmController::ArmController(Now now, const kinematics::ArmModel& arm, const Rob
     motions_.reserve(motions);
 }
 
-bool ArmController::control(const Cycle&, const In& in, Out& out) {
+void ArmController::before_sensors(const Cycle&, const In& in) {
+    now_ns_ = now_();
+    is_guided_ = in.encoder_to_robot && in.vs_to_robot && now_ns_ - in.vs_to_robot->captured_ns <= settings_.most_age_ns;
+}
+
+bool ArmController::control(const Cycle& cycle, const In& in, Out& out) {
+    RobotMachine::control(cycle, in, out);
     if (!in.encoder_to_robot) {
         return false;
     }
-    const std::int64_t now_ns = now_();
+    const std::int64_t now_ns = now_ns_;
     const double dt = last_ns_ < 0 ? 0 : static_cast<double>(now_ns - last_ns_) * 1e-9;
     last_ns_ = now_ns;
 
     Motion motion{.at_ns = now_ns, .measured = in.encoder_to_robot->position};
     servo::Twist wanted = servo::Twist::Zero();
-    if (in.vs_to_robot && now_ns - in.vs_to_robot->captured_ns <= settings_.most_age_ns) {
+    if (out.arm.value() == ArmMode::FOLLOWING) {
         wanted = Eigen::Map<const servo::Twist>{in.vs_to_robot->twist.data()};
         motion.captured_ns = in.vs_to_robot->captured_ns;
         motion.holding = false;

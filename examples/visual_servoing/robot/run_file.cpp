@@ -21,6 +21,18 @@ const char* text(vision::Track track) {
     return "";
 }
 
+const char* text(ServoMode mode) {
+    switch (mode) {
+        case ServoMode::WITHOUT_TARGET: return "without target";
+        case ServoMode::SEARCHING: return "searching";
+        case ServoMode::TRACKING: return "tracking";
+        case ServoMode::CONVERGED: return "converged";
+        case ServoMode::COVERED: return "covered";
+        case ServoMode::LOST: return "lost";
+    }
+    return "";
+}
+
 std::array<double, 8> flat(const servo::Pixels& pixels) {
     std::array<double, 8> result{};
     for (std::size_t i = 0; i < servo::points; ++i) {
@@ -74,7 +86,8 @@ void write_sights(Json& json, const Loop& loop) {
     json.column("image_age_ms", sights, [](Json& j, const Sight& s) { j.number(milliseconds(s.at_ns - s.captured_ns)); });
     json.column("target", sights, [](Json& j, const Sight& s) { j.number(static_cast<double>(s.target)); });
     json.column("track", sights, [](Json& j, const Sight& s) { j.text(text(s.tracked.track)); });
-    json.column("error", sights, [](Json& j, const Sight& s) { s.command ? j.number(s.command.error) : j.nothing(); });
+    json.column("mode", sights, [](Json& j, const Sight& s) { j.text(text(s.mode)); });
+    json.column("error", sights, [](Json& j, const Sight& s) { s.tracked && s.command ? j.number(s.command.error) : j.nothing(); });
     json.column("pixels", sights, [](Json& j, const Sight& s) {
         s.tracked ? j.numbers(flat(s.tracked.pixels)) : j.nothing();
     });

@@ -66,41 +66,54 @@ void ServoingByImages::keep(const CameraToVs& image) {
     }
 }
 
-bool ServoingByImages::set_point(const Cycle&, const In& in, Out& out) {
-    if (in.targets && in.targets.fresh) {
-        target_ = in.targets->number;
-        target_came_ns_ = now_();
-        keeping_next_ = 0;
-        desired_ = in.targets->desired;
-        servo::Pixels expected;
-        for (std::size_t i = 0; i < servo::points; ++i) {
-            expected[i] = settings_.lens.pixel(desired_.seen[i]);
-        }
-        if (!tracker_.present()) {
-            tracker_.expect(expected);
-        }
+void ServoingByImages::aim(const Targets& target) {
+    target_ = target.number;
+    target_came_ns_ = now_();
+    keeping_next_ = 0;
+    desired_ = target.desired;
+    servo::Pixels expected;
+    for (std::size_t i = 0; i < servo::points; ++i) {
+        expected[i] = settings_.lens.pixel(desired_.seen[i]);
     }
+    if (!tracker_.present()) {
+        tracker_.expect(expected);
+    }
+}
+
+void ServoingByImages::before_sensors(const Cycle&, const In& in) {
+    if (in.targets && in.targets.fresh) {
+        aim(*in.targets);
+    }
+    sight_ = {};
     if (!in.camera_to_vs || !in.camera_to_vs.fresh || target_ == 0) {
-        return false;
+        return;
     }
     const CameraToVs& image = *in.camera_to_vs;
-    Sight sight{.at_ns = now_(), .captured_ns = image.captured_ns, .target = target_};
-    sight.tracked = tracker_.look(image.frame.view(), image.captured_ns);
+    sight_ = {.at_ns = now_(), .captured_ns = image.captured_ns, .target = target_};
+    sight_.tracked = tracker_.look(image.frame.view(), image.captured_ns);
     keep(image);
-    bool ready = false;
-    if (sight.tracked) {
-        servo::View present{servo::normalised(settings_.lens, sight.tracked.pixels), {}};
+    if (sight_.tracked) {
+        servo::View present{servo::normalised(settings_.lens, sight_.tracked.pixels), {}};
         present.depths = servo::depths_by_area(present.seen, desired_);
-        sight.command = servo::control(settings_.law, present, desired_);
-        ready = static_cast<bool>(sight.command);
-        for (std::size_t i = 0; i < 6; ++i) {
-            out.vs_to_robot.twist[i] = sight.command.twist[static_cast<Eigen::Index>(i)];
-        }
-        out.vs_to_robot.error = sight.command.error;
-        out.vs_to_robot.captured_ns = image.captured_ns;
+        sight_.command = servo::control(settings_.law, present, desired_);
     }
-    record(sights_, sight);
-    return ready;
+}
+
+bool ServoingByImages::set_point(const Cycle& cycle, const In& in, Out& out) {
+    VisualServoingMachine::set_point(cycle, in, out);
+    sight_.mode = out.panel.value();
+    if (sight_.mode == ServoMode::LOST && tracker_.present()) {
+        tracker_.give_up();
+    }
+    for (std::size_t i = 0; i < 6; ++i) {
+        out.vs_to_robot.twist[i] = sight_.command.twist[static_cast<Eigen::Index>(i)];
+    }
+    out.vs_to_robot.error = sight_.command.error;
+    out.vs_to_robot.captured_ns = sight_.captured_ns;
+    if (sight_.target != 0) {
+        record(sights_, sight_);
+    }
+    return out.guiding.value();
 }
 
 }  // namespace controller_system

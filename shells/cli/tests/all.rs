@@ -3,6 +3,7 @@
 
 mod bad_input;
 mod bench;
+mod committed_programs;
 mod dap;
 mod dap_disorder;
 mod dap_points;

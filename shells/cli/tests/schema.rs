@@ -51,7 +51,7 @@ fn every_command_writes_what_the_schema_says() {
     let schema = schema("output.json");
     let folder = tempfile::tempdir().expect("a temporary folder");
     let into = |name: &str| folder.path().join(name).display().to_string();
-    let case_study = "examples/visual_servoing/ControllerSystem.asm";
+    let case_study = "examples/visual_servoing/CompleteController.asm";
     let recording = "shells/cli/tests/cmd/report.in/robot.mcap";
     let light = "shells/cli/tests/cmd/run.in/Light.asm";
     let many: String = "asm Many\nsignature:\ndefinitions:\n".to_string()

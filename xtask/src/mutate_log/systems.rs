@@ -19,8 +19,10 @@ use crate::repository::root;
 #[derive(Debug, Clone, Copy)]
 pub struct Subject {
     pub name: &'static str,
-    /// Without its ending: the model lies beside the chart.
+    /// Its chart, without the ending.
     path: &'static str,
+    /// Its model, if that is not the one beside the chart.
+    model: Option<&'static str>,
     /// A folder with hooks of its own.
     hooks: Option<&'static str>,
     /// How long its logs are.
@@ -28,15 +30,23 @@ pub struct Subject {
 }
 
 pub const SUBJECTS: &[Subject] = &[
-    Subject { name: "controller", path: "examples/visual_servoing/ControllerSystem", hooks: None, milliseconds: 12.0 },
+    // The program without the machines of its components: the model that is written by hand has none.
+    Subject {
+        name: "controller",
+        path: "examples/visual_servoing/ControllerSystem",
+        model: Some("examples/visual_servoing/CompleteController"),
+        hooks: None,
+        milliseconds: 12.0,
+    },
     Subject {
         name: "contention",
         path: "cpp/systems/Contention",
+        model: None,
         hooks: Some("cpp/systems/contention"),
         milliseconds: 12.0,
     },
-    Subject { name: "conveyor", path: "cpp/systems/Conveyor", hooks: None, milliseconds: 25.0 },
-    Subject { name: "classifier", path: "cpp/systems/Classifier", hooks: None, milliseconds: 40.0 },
+    Subject { name: "conveyor", path: "cpp/systems/Conveyor", model: None, hooks: None, milliseconds: 25.0 },
+    Subject { name: "classifier", path: "cpp/systems/Classifier", model: None, hooks: None, milliseconds: 40.0 },
 ];
 
 /// A log of a system.
@@ -70,7 +80,7 @@ impl Subject {
     /// It has faults.
     pub fn model(&self) -> Result<Loaded, Failure> {
         let mut checkout = Checkout { root: root() };
-        let source = checkout.source(&format!("{}.asm", self.path))?;
+        let source = checkout.source(&format!("{}.asm", self.model.unwrap_or(self.path)))?;
         groundstate::load(source, &mut checkout).map_err(|faulty| match faulty.diagnostics.first() {
             Some(fault) => format!("{}: {}", self.path, fault.message),
             None => format!("{} cannot be loaded", self.path),

@@ -43,7 +43,7 @@ fn recording(pace: &str, lines: &str) -> Recording {
 }
 
 fn verdict(recording: &Recording) -> Verdict {
-    let (sources, model, program) = model_named("ControllerSystem.asm");
+    let (sources, model, program) = model_named("CompleteController.asm");
     let mut session =
         Session::new(sources, model, program, Limits::default(), recording, true).expect("it can be replayed");
     session.go_on(recording, false).expect("of this system").expect("nothing more comes")
@@ -210,7 +210,7 @@ fn all_events_are_come_to() {
     late.tracks[4].events.iter_mut().for_each(|event| event.number += u64::from(event.kind == Kind::Swaps));
     parts(&late, "swaps encoder_to_motor", "swaps encoder_to_motor");
     late.tracks[5].events.last_mut().expect("an event").time_ns = 0;
-    let (sources, model, program) = model_named("ControllerSystem.asm");
+    let (sources, model, program) = model_named("CompleteController.asm");
     let mut session =
         Session::new(sources, model, program, Limits::default(), &late, true).expect("it can be replayed");
     assert!(matches!(session.go_on(&late, false), Err(Refusal::Words(words)) if words.contains("time goes back")));

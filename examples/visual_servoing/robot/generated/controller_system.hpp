@@ -12,6 +12,7 @@
 
 #include <groundstate/program.hpp>
 
+#include "messages.hpp"
 #include "../data.hpp"
 
 namespace controller_system {
@@ -57,11 +58,31 @@ struct VisualServoing {
         Seen<Targets> targets{};
         Seen<CameraToVs> camera_to_vs{};
         Seen<RobotToVs> robot_to_vs{};
+        bool hasTarget{};
+        bool isSeen{};
+        bool hasLaw{};
+        bool isClose{};
     };
     struct Out {
         VsToRobot& vs_to_robot;
+        std::optional<ServoMode>& panel;
+        std::optional<bool>& guiding;
     };
     virtual ~VisualServoing() = default;
+    /// Before the sensors are asked, for those that are computed of what was read.
+    virtual void before_sensors(const Cycle& /*cycle*/, const In& /*in*/) {}
+    /// What the sensor hasTarget says.
+    virtual bool has_target(const Cycle& cycle) = 0;
+    /// What the sensor isSeen says.
+    virtual bool is_seen(const Cycle& cycle) = 0;
+    /// What the sensor hasLaw says.
+    virtual bool has_law(const Cycle& cycle) = 0;
+    /// What the sensor isClose says.
+    virtual bool is_close(const Cycle& cycle) = 0;
+    /// Sets the actuator panel.
+    virtual void panel(const Cycle& cycle, ServoMode value) = 0;
+    /// Sets the actuator guiding.
+    virtual void guiding(const Cycle& cycle, bool value) = 0;
     /// Returns false if there is nothing to hand over in this cycle. Should end within 12 ms.
     virtual bool set_point(const Cycle& cycle, const In& in, Out& out) = 0;
     /// Before the tasks start; may allocate.
@@ -75,12 +96,23 @@ struct Robot {
     struct In {
         Seen<VsToRobot> vs_to_robot{};
         Seen<EncoderToRobot> encoder_to_robot{};
+        bool isGuided{};
+        bool isStill{};
     };
     struct Out {
         RobotToMotor& robot_to_motor;
         RobotToVs& robot_to_vs;
+        std::optional<ArmMode>& arm;
     };
     virtual ~Robot() = default;
+    /// Before the sensors are asked, for those that are computed of what was read.
+    virtual void before_sensors(const Cycle& /*cycle*/, const In& /*in*/) {}
+    /// What the sensor isGuided says.
+    virtual bool is_guided(const Cycle& cycle) = 0;
+    /// What the sensor isStill says.
+    virtual bool is_still(const Cycle& cycle) = 0;
+    /// Sets the actuator arm.
+    virtual void arm(const Cycle& cycle, ArmMode value) = 0;
     /// Returns false if there is nothing to hand over in this cycle. Should end within 2 ms.
     virtual bool control(const Cycle& cycle, const In& in, Out& out) = 0;
     /// Before the tasks start; may allocate.
@@ -145,9 +177,9 @@ inline groundstate::SystemPlan plan() {
             {.name = "motor", .period_ticks = 10, .offset_ticks = 0, .deadline_ticks = 10, .busy_ticks = 8, .rank = 1, .single_phase = false},
             {.name = "encoder", .period_ticks = 5, .offset_ticks = 0, .deadline_ticks = 5, .busy_ticks = 5, .rank = 0, .single_phase = false},
         },
-        .names = {"operator_plan", "operator_send", "camera_grab", "camera_write", "vs_receive_target", "vs_read_image", "vs_read_robot", "vs_elaborate", "vs_write", "robot_read_vs", "robot_read_encoder", "robot_elaborate", "robot_write_motor", "robot_write_vs", "motor_read_encoder", "motor_read_robot", "motor_elaborate", "encoder_acquire", "encoder_write_robot", "encoder_write_motor", "targets", "camera_to_vs", "robot_to_vs", "vs_to_robot", "encoder_to_robot", "encoder_to_motor", "robot_to_motor", "operator", "camera", "visual_servoing", "robot", "motor", "encoder"},
+        .names = {"operator_plan", "operator_send", "camera_grab", "camera_write", "vs_receive_target", "vs_read_image", "vs_read_robot", "vs_elaborate", "vs_write", "robot_read_vs", "robot_read_encoder", "robot_elaborate", "robot_write_motor", "robot_write_vs", "motor_read_encoder", "motor_read_robot", "motor_elaborate", "encoder_acquire", "encoder_write_robot", "encoder_write_motor", "targets", "camera_to_vs", "robot_to_vs", "vs_to_robot", "encoder_to_robot", "encoder_to_motor", "robot_to_motor", "operator", "camera", "visual_servoing", "robot", "motor", "encoder", "lens", "encoders", "hasTarget", "isSeen", "hasLaw", "isClose", "isGuided", "isStill", "motors", "panel", "guiding", "arm"},
         .wait_free = {},
-        .safe_stop = {4, 0, 1, 2, 3, 5},
+        .safe_stop = {2, 3, 4, 0, 1, 5},
     };
 }
 
@@ -238,9 +270,29 @@ class System final : public groundstate::SystemBase<C> {
             phases.receive({4, 1}, targets_channel_, targets_last_, visual_servoing_in_.targets);
             phases.read_in_place({5, 1}, camera_to_vs_channel_, visual_servoing_in_.camera_to_vs);
             phases.read_in_place({6, 1}, robot_to_vs_channel_, visual_servoing_in_.robot_to_vs);
-            ready = phases.elaborate({7, 120}, [&] {
-                typename VisualServoing::Out out{vs_to_robot_channel_.own()};
-                return hooks_.visual_servoing.set_point(cycle, visual_servoing_in_, out);
+            ready = phases.decide({7, 120}, [&] {
+                hooks_.visual_servoing.before_sensors(cycle, visual_servoing_in_);
+                visual_servoing_in_.hasTarget = hooks_.visual_servoing.has_target(cycle);
+                visual_servoing_in_.isSeen = hooks_.visual_servoing.is_seen(cycle);
+                visual_servoing_in_.hasLaw = hooks_.visual_servoing.has_law(cycle);
+                visual_servoing_in_.isClose = hooks_.visual_servoing.is_close(cycle);
+                std::optional<ServoMode> set_panel{};
+                std::optional<bool> set_guiding{};
+                typename VisualServoing::Out out{vs_to_robot_channel_.own(), set_panel, set_guiding};
+                phases.senses(35, visual_servoing_in_.hasTarget);
+                phases.senses(36, visual_servoing_in_.isSeen);
+                phases.senses(37, visual_servoing_in_.hasLaw);
+                phases.senses(38, visual_servoing_in_.isClose);
+                const bool done = hooks_.visual_servoing.set_point(cycle, visual_servoing_in_, out);
+                phases.decides(42, set_panel.value_or(ServoMode{}), set_panel.has_value());
+                if (set_panel) {
+                    hooks_.visual_servoing.panel(cycle, *set_panel);
+                }
+                phases.decides(43, set_guiding.value_or(bool{}), set_guiding.has_value());
+                if (set_guiding) {
+                    hooks_.visual_servoing.guiding(cycle, *set_guiding);
+                }
+                return done;
             });
             phases.write_in_place({8, 1}, vs_to_robot_channel_, 23, ready);
         });
@@ -251,9 +303,20 @@ class System final : public groundstate::SystemBase<C> {
             bool ready = false;
             phases.read_copy({9, 1}, vs_to_robot_channel_, vs_to_robot_copy_, robot_in_.vs_to_robot);
             phases.read_in_place({10, 1}, encoder_to_robot_channel_, robot_in_.encoder_to_robot);
-            ready = phases.elaborate({11, 20}, [&] {
-                typename Robot::Out out{robot_to_motor_channel_.own(), robot_to_vs_staged_};
-                return hooks_.robot.control(cycle, robot_in_, out);
+            ready = phases.decide({11, 20}, [&] {
+                hooks_.robot.before_sensors(cycle, robot_in_);
+                robot_in_.isGuided = hooks_.robot.is_guided(cycle);
+                robot_in_.isStill = hooks_.robot.is_still(cycle);
+                std::optional<ArmMode> set_arm{};
+                typename Robot::Out out{robot_to_motor_channel_.own(), robot_to_vs_staged_, set_arm};
+                phases.senses(39, robot_in_.isGuided);
+                phases.senses(40, robot_in_.isStill);
+                const bool done = hooks_.robot.control(cycle, robot_in_, out);
+                phases.decides(44, set_arm.value_or(ArmMode{}), set_arm.has_value());
+                if (set_arm) {
+                    hooks_.robot.arm(cycle, *set_arm);
+                }
+                return done;
             });
             phases.write_in_place({12, 1}, robot_to_motor_channel_, 26, ready);
             phases.write_copy({13, 1}, robot_to_vs_channel_, robot_to_vs_staged_, 22, ready);

@@ -2,6 +2,7 @@
 // it still converges or comes to rest.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
 
 #include "closed_loop.hpp"
@@ -34,6 +35,32 @@ TEST(ClosedLoop, ConvergesToBothGoals) {
     EXPECT_LT(before, 1e-3);
     EXPECT_GT(loop.servoing->sights().size(), 700u);
     EXPECT_EQ(loop.servoing->searches(), 1);
+}
+
+// Set-points are handed over where the machine says so, and nowhere else: the robot follows no image of which it does not.
+TEST(ClosedLoop, OnlyWhatTheMachineGuidesIsFollowed) {
+    const Loop loop = run({.run = short_run, .disturbances = {.dropped = true, .occlusion = true}});
+    const auto& sights = loop.servoing->sights();
+    const auto guided = [&](const Sight& sight) {
+        return (sight.mode == ServoMode::TRACKING || sight.mode == ServoMode::CONVERGED || sight.mode == ServoMode::COVERED) &&
+               sight.command;
+    };
+    const auto of = [&](std::int64_t captured_ns) {
+        return std::find_if(sights.begin(), sights.end(), [&](const Sight& s) { return s.captured_ns == captured_ns; });
+    };
+    long followed = 0;
+    for (const Motion& motion : loop.robot->motions()) {
+        if (motion.captured_ns >= 0) {
+            const auto sight = of(motion.captured_ns);
+            ASSERT_NE(sight, sights.end());
+            EXPECT_TRUE(guided(*sight));
+            ++followed;
+        }
+    }
+    EXPECT_GT(followed, 900);
+    EXPECT_EQ(sights.back().mode, ServoMode::CONVERGED);
+    const auto covered = [](const Sight& sight) { return sight.mode == ServoMode::COVERED; };
+    EXPECT_GT(std::count_if(sights.begin(), sights.end(), covered), 10);
 }
 
 // Everything that was recorded, as bytes; padding is not looked at.

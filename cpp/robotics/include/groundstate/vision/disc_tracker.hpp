@@ -47,6 +47,9 @@ class DiscTracker {
     /// the top left corner, the others follow clockwise.
     void expect(const servo::Pixels& pixels) noexcept;
 
+    /// The set is lost: it is searched again from the next image on, near where it should be.
+    void give_up() noexcept;
+
     /// Looks at the next image, taken at that time. Allocates: only while searching.
     const Tracked& look(ConstFrameView image, std::int64_t captured_ns);
 
