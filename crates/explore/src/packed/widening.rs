@@ -54,7 +54,7 @@ impl Widening {
     }
 }
 
-/// How many bits suffice for the values that locations were seen to take ([`crate::packed::few`]).
+/// How many bits suffice for the values that locations were seen to take.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Rooms(pub(crate) BTreeMap<u32, u8>);
 
