@@ -25,6 +25,7 @@ const VALUES: i64 = 1 << 20;
 /// The first one that cannot be read, or does not fit the program.
 pub fn read(program: &Program, texts: &[String]) -> Result<Bounds, Refused> {
     let mut bounds = Bounds::new();
+    let mut machine = None;
     for text in texts {
         let wrong = |reason: String| Refused::new(text, reason);
         let (name, values) = text.split_once('=').ok_or_else(|| wrong("there is no `=`".to_string()))?;
@@ -34,22 +35,28 @@ pub fn read(program: &Program, texts: &[String]) -> Result<Bounds, Refused> {
         }
         for function in inputs {
             let values = values_of(program, function, values).map_err(wrong)?;
-            all_inside(program, function, &values).map_err(wrong)?;
+            let machine = machine.get_or_insert_with(|| Machine::new(Arc::new(program.clone()), Limits::default()));
+            all_inside(machine, function, &values).map_err(wrong)?;
             bounds.insert(function, values);
         }
     }
     Ok(bounds)
 }
 
+/// Whether a bound is one of an input of the program, whatever its values are.
+pub fn is_of_input(program: &Program, text: &str) -> bool {
+    text.split_once('=').is_some_and(|(name, _)| !inputs(program, name.trim()).is_empty())
+}
+
 /// Whether the domain of a function contains the values, unless it may grow: the environment gives no others.
-fn all_inside(program: &Program, function: FunctionId, values: &[Value]) -> Result<(), String> {
+fn all_inside(machine: &mut Machine, function: FunctionId, values: &[Value]) -> Result<(), String> {
+    let program = Arc::clone(machine.program());
     let domain = program.function(function).codomain;
     if !program.constant_domains()[domain.0 as usize] {
         return Ok(());
     }
-    let mut machine = Machine::new(Arc::new(program.clone()), Limits::default());
     match values.iter().find(|value| !machine.contains(domain, value)) {
-        Some(value) => Err(format!("{} is not in {}", value.show(program), program.domain(domain).name)),
+        Some(value) => Err(format!("{} is not in {}", value.show(&program), program.domain(domain).name)),
         None => Ok(()),
     }
 }

@@ -92,12 +92,13 @@ fn counters(seed: u64) -> Arc<Program> {
 
 #[test]
 fn random_counters_are_found_alike() {
-    let mut shorter = 0;
-    for seed in seeds(30, 1_000) {
+    let seeds = seeds(30, 300);
+    let (mut shorter, count) = (0, seeds.clone().count());
+    for seed in seeds {
         let (before, after) = agrees(&counters(seed), &Options::default());
         shorter += usize::from(after < before);
     }
-    assert!(shorter >= 20, "only {shorter} models came to have shorter states");
+    assert!(2 * shorter > count, "only {shorter} of {count} models came to have shorter states");
 }
 
 #[test]

@@ -92,13 +92,11 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     for (side, model) in models.iter().enumerate() {
         options.extents[side] = Extent { limits: limits.clone(), ..Extent::default() };
         for text in &arguments.bounds {
-            let text = std::slice::from_ref(text);
-            match (bound::read(&model.program, text), bound::read(&models[1 - side].program, text)) {
-                (Ok(bounds), _) => options.extents[side].bounds.extend(bounds),
-                (Err(_), Ok(_)) => {}
-                (Err(refused), Err(_)) => {
-                    return Err(Failure::usage_with_help(format!("--bound {refused}"), bound::HELP));
-                }
+            // An input that only the other model has is bounded there.
+            if bound::is_of_input(&model.program, text) || !bound::is_of_input(&models[1 - side].program, text) {
+                let wrong = |refused| Failure::usage_with_help(format!("--bound {refused}"), bound::HELP);
+                let bounds = bound::read(&model.program, std::slice::from_ref(text)).map_err(wrong)?;
+                options.extents[side].bounds.extend(bounds);
             }
         }
     }

@@ -8,10 +8,9 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use rustc_hash::FxHashSet;
-
 use crate::explorer::Explorer;
-use crate::packed::codes::Codes;
+use crate::explorer::sighting::Met;
+use crate::packed::codes::{Codes, bits_of};
 use crate::packed::encoding::Encoding;
 use crate::packed::widening::{Rooms, Widening};
 use crate::packed::words::{Field, NOWHERE};
@@ -31,18 +30,17 @@ impl Explorer {
     /// The room that locations need in these states and others; none if states would hardly become shorter. Afterwards the explorer has
     /// made steps that no search asked for.
     pub fn census<'s>(&mut self, states: impl Iterator<Item = &'s [u64]>) -> Option<Rooms> {
-        let encoding = Arc::clone(&self.encoding);
-        let mut met = Met::new(&encoding.fields, self.words());
-        self.initial().iter().for_each(|(state, _)| met.add(state));
+        let mut met = Met::default();
+        self.initial().iter().for_each(|(state, _)| self.meet(state, &mut met));
         let mut last = None;
         states.for_each(|state| {
-            met.add(state);
+            self.meet(state, &mut met);
             last = Some(state);
         });
         let rooms = self.rooms(&met);
         let bits = |field: &Field| rooms.0.get(&field.location).copied().unwrap_or(field.bits);
-        let needed: usize = encoding.fields.iter().map(|field| usize::from(bits(field))).sum();
-        // To begin again takes some time.
+        let needed: usize = self.encoding.fields.iter().map(|field| usize::from(bits(field))).sum();
+        // What was learned of steps is learned anew.
         if needed.div_ceil(64) * 4 > self.words() * 3 {
             return None;
         }
@@ -51,7 +49,7 @@ impl Explorer {
     }
 
     /// Meets the states of a walk: what comes up later in a run is told sooner by it than by all states up to some distance.
-    fn walk(&mut self, from: &[u64], met: &mut Met<'_>) {
+    fn walk(&mut self, from: &[u64], met: &mut Met) {
         let (mut state, mut successors, mut random) = (from.to_vec(), Vec::new(), 1u64);
         for _ in 0..WALK {
             successors.clear();
@@ -64,11 +62,11 @@ impl Explorer {
                 Some(next) => state.copy_from_slice(next),
                 None => state.copy_from_slice(from),
             }
-            met.add(&state);
+            self.meet(&state, met);
         }
     }
 
-    fn rooms(&self, met: &Met<'_>) -> Rooms {
+    fn rooms(&self, met: &Met) -> Rooms {
         let mut rooms = BTreeMap::new();
         for (index, (field, codes)) in (0..).zip(self.encoding.fields.iter().zip(&met.codes)) {
             if field.location == NOWHERE || self.encoding.kept.fields.contains(&index) {
@@ -82,7 +80,7 @@ impl Explorer {
             };
             if narrower {
                 let spare = u8::from(codes.len() > 1) + u8::from(codes.len() > 4);
-                rooms.insert(field.location, bits(codes.len()) + spare);
+                rooms.insert(field.location, bits_of(codes.len()) + spare);
             }
         }
         Rooms(rooms)
@@ -169,46 +167,16 @@ impl Explorer {
                 (true, _) => 2,
                 // What holds for one argument of a function often holds for others, too.
                 (false, ..=1) => u8::from(functions.contains(&field.function)) + hurries / 2,
-                (false, _) => u8::from(bits(size) == field.bits) + hurries,
+                (false, _) => u8::from(bits_of(size) == field.bits) + hurries,
             };
             let full = match &self.encoding.codes[field.function.0 as usize] {
-                Some(Codes::Listed { values, undefined }) => bits(values.len() + usize::from(*undefined)),
-                _ => bits(MANY) + 1,
+                Some(Codes::Listed { values, undefined }) => bits_of(values.len() + usize::from(*undefined)),
+                _ => bits_of(MANY) + 1,
             };
             if field.bits + more < full {
                 rooms.insert(field.location, field.bits + more);
             }
         }
         Rooms(rooms)
-    }
-}
-
-/// How many bits so many codes need.
-fn bits(count: usize) -> u8 {
-    (usize::BITS - count.saturating_sub(1).leading_zeros()) as u8
-}
-
-/// The codes of each field in some states.
-struct Met<'f> {
-    fields: &'f [Field],
-    codes: Vec<FxHashSet<u64>>,
-    last: Vec<u64>,
-    any: bool,
-}
-
-impl Met<'_> {
-    fn new(fields: &[Field], words: usize) -> Met<'_> {
-        Met { fields, codes: vec![FxHashSet::default(); fields.len()], last: vec![0; words], any: false }
-    }
-
-    fn add(&mut self, state: &[u64]) {
-        for (field, codes) in self.fields.iter().zip(&mut self.codes) {
-            let word = field.word as usize;
-            if !self.any || (self.last[word] ^ state[word]) & field.mask() != 0 {
-                codes.insert(field.code(state));
-            }
-        }
-        self.last.copy_from_slice(state);
-        self.any = true;
     }
 }

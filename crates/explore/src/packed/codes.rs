@@ -24,6 +24,11 @@ pub(crate) enum Codes {
     Interned,
 }
 
+/// How many bits so many codes need.
+pub(crate) fn bits_of(count: usize) -> u8 {
+    (usize::BITS - count.saturating_sub(1).leading_zeros()) as u8
+}
+
 /// How many bits the number of a value has.
 pub(crate) const NUMBER: usize = 32;
 
@@ -43,8 +48,7 @@ impl Codes {
         values.sort_unstable();
         values.dedup();
         let count = values.len() + usize::from(undefined);
-        let bits = (usize::BITS - count.saturating_sub(1).leading_zeros()) as usize;
-        (Codes::Listed { values: Arc::new(values), undefined }, bits)
+        (Codes::Listed { values: Arc::new(values), undefined }, usize::from(bits_of(count)))
     }
 
     /// The codes of collections of a domain in place, if they all are such, these among them, and never undef; sequences may be so

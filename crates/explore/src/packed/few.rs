@@ -2,9 +2,8 @@
 //!
 //! The number of a value has 32 bits, though most locations over infinite domains only ever have a handful of values, and many
 //! have one. A census of states that were found ([`crate::explorer::census`]) gives each such location just enough room;
-//! its codes are then the numbers that its own [`Dictionary`] gives, from 0 on. A value beyond the room makes the search
-//! begin again with more of it. INVARIANT: as long as a location has the same values, they have the same codes, for all explorers of a
-//! search.
+//! its codes are then the numbers that its own [`Dictionary`] gives, from 0 on. For a value beyond the room the search
+//! packs its states anew, with more of it. INVARIANT: a value of a location keeps its code, for all explorers of a search.
 
 use hashbrown::HashMap;
 use rustc_hash::FxBuildHasher;

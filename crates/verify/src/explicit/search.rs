@@ -323,6 +323,8 @@ fn search<'k>(
     let mut progress = Progress::default();
     let crew = Crew { plan, explore: &|| maker.explorer() };
     let words = explorer.words();
+    // Before memory ends the search.
+    let census = plan.census.unwrap_or(CENSUS.min(plan.max_bytes / 2));
     // LIMIT: with lossy storage or symmetry reduction, findings are reported at the end.
     let tells = plan.storage == Storage::Exact && shards[0].orbits.is_none();
     let mut heard = 0;
@@ -338,7 +340,7 @@ fn search<'k>(
             paused = goes_on && kept.as_mut().is_some_and(|(keeper, _)| keeper.is_due());
             counted = goes_on
                 && counts
-                && reports.iter().map(|report| report.bytes).sum::<u64>() >= plan.census.unwrap_or(CENSUS);
+                && reports.iter().map(|report| report.bytes).sum::<u64>() >= census;
             if paused || counted || news > 0 { Decision::Stop(None) } else { decision }
         };
         let stop = crew.work(explorer, shards, &starts, words, &mut decide);
