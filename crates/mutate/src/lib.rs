@@ -4,11 +4,13 @@
 //! In: a checked model, and which of its files to mutate. Out: [`Mutant`]s, each an edit of that file's text, with the
 //! place and the operator. A mutant differs from the model in its rules, in the definitions that these use or in its
 //! initial state, never in its properties: those are to judge it. [`same()`] tells whether a mutant makes the same steps as
-//! the model from every reachable state, so that nothing can tell the two apart. It knows no judge.
+//! the model from every reachable state, so that nothing can tell the two apart. A chart's mutants are edits of its text, too
+//! ([`chart_mutants`]). It knows no judge.
 //!
 //! INVARIANT: mutants are in the order of the text, and the same text gives the same mutants.
 
 mod all;
+mod drawn;
 mod edit;
 mod facts;
 mod footprint;
@@ -21,6 +23,7 @@ mod same;
 mod score;
 
 pub use all::mutants;
+pub use drawn::chart_mutants;
 pub use edit::{Change, Edit, applied, changed};
 pub use mutant::{Mutant, Named};
 pub use operator::Operator;

@@ -43,13 +43,31 @@ pub enum Operator {
     OrderReplaced,
     /// A constant in an initial state is replaced.
     InitialReplaced,
+    /// Of a chart: an arrow ends at another shape.
+    ArrowRedirected,
+    /// Of a chart: the exits of a guard are exchanged.
+    ExitsSwapped,
+    /// Of a chart: a machine begins in another state.
+    StartMoved,
+    /// Of a chart: two successive phases change places.
+    PhasesSwapped,
+    /// Of a chart: two phases of a component exchange their channels.
+    ChannelsExchanged,
+    /// Of a chart: a phase takes a tick more or less.
+    DurationShifted,
+    /// Of a chart: a period is doubled or halved.
+    PeriodScaled,
+    /// Of a chart: a channel has one array or message more or less.
+    SizeShifted,
+    /// Of a chart: the other end is the master of a buffer.
+    MasterExchanged,
 }
 
 use Operator::*;
 
 impl Operator {
     /// All operators, in the order of the list.
-    pub const ALL: [Operator; 19] = [
+    pub const ALL: [Operator; 28] = [
         RuleDeleted,
         CallDeleted,
         GuardNegated,
@@ -69,6 +87,15 @@ impl Operator {
         ConstantShifted,
         OrderReplaced,
         InitialReplaced,
+        ArrowRedirected,
+        ExitsSwapped,
+        StartMoved,
+        PhasesSwapped,
+        ChannelsExchanged,
+        DurationShifted,
+        PeriodScaled,
+        SizeShifted,
+        MasterExchanged,
     ];
 
     /// The id, as options and results name it.
@@ -93,6 +120,15 @@ impl Operator {
             ConstantShifted => "constant-shifted",
             OrderReplaced => "order-replaced",
             InitialReplaced => "initial-replaced",
+            ArrowRedirected => "arrow-redirected",
+            ExitsSwapped => "exits-swapped",
+            StartMoved => "start-moved",
+            PhasesSwapped => "phases-swapped",
+            ChannelsExchanged => "channels-exchanged",
+            DurationShifted => "duration-shifted",
+            PeriodScaled => "period-scaled",
+            SizeShifted => "size-shifted",
+            MasterExchanged => "master-exchanged",
         }
     }
 
@@ -118,6 +154,15 @@ impl Operator {
             ConstantShifted => "a whole number becomes one more or one less",
             OrderReplaced => "`par` becomes `seq`, or the other way round",
             InitialReplaced => "a constant of the initial state becomes another one",
+            ArrowRedirected => "an arrow of a chart ends at another shape of the same kind",
+            ExitsSwapped => "the exits of a guard of a chart are exchanged",
+            StartMoved => "a machine or composite state of a chart begins in another state",
+            PhasesSwapped => "two successive phases of a component change places",
+            ChannelsExchanged => "two phases of a component exchange their channels",
+            DurationShifted => "a phase takes a tick more or less",
+            PeriodScaled => "a period is doubled or halved",
+            SizeShifted => "a channel has one array or message more or less",
+            MasterExchanged => "the other end is the master of a swinging buffer",
         }
     }
 

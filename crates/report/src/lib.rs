@@ -3,7 +3,8 @@
 //! In: a [`Spec`] that says which terms of a model make which lane ([`read_specification`] reads one), their values
 //! state by state ([`ReportBuilder`]), and data that a shell adds from elsewhere; or the recorded events of a program
 //! ([`ProgramRun`]). Out: [`render_html`] and [`render_program`], a page in a single file that needs nothing else;
-//! [`render_svg`], a still picture; [`summarise`] and [`summarise_program`], the same in short for a terminal.
+//! [`render_svg`], a still picture; [`summarise`] and [`summarise_program`], the same in short for a terminal. A mutation
+//! analysis has a page, too ([`render_mutation`]).
 //!
 //! It must not know what a task or a buffer of any model is called, how a model is executed, or a file; the same
 //! report gives the same bytes.
@@ -14,6 +15,7 @@ mod html;
 mod lanes;
 mod levels;
 mod markup;
+mod mutation;
 mod program;
 mod report;
 mod spec;
@@ -27,8 +29,9 @@ mod track;
 
 pub use builder::{ReportBuilder, SHOWN_TICKS};
 pub use flow::{Flow, Journey};
-pub use html::{LiveTimeline, render_html, render_program, render_timeline};
+pub use html::{LiveTimeline, render_html, render_mutation, render_program, render_timeline};
 pub use levels::Levels;
+pub use mutation::{Fate, JudgedMutant, MutatedFile, MutationAnalysis};
 pub use program::{ChannelAge, ClosedLoop, Held, Joint, Program, ProgramRun, TaskTiming, View};
 pub use report::{
     Buffer, Chart, Coverage, Fact, Invariant, Lights, Measure, Queue, Report, Scenario, Series, Task, Verdict,

@@ -8,6 +8,7 @@ mod check;
 mod checkpoint;
 mod choose;
 mod coverage;
+pub mod dependence;
 mod engine;
 mod explicit;
 mod explorers;

@@ -5,6 +5,7 @@ mod blocked;
 mod census;
 mod checkpoint;
 mod collections;
+mod dependence;
 mod disk;
 mod exploration;
 mod first_step;

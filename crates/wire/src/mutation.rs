@@ -1,7 +1,7 @@
 //! The results of a mutation analysis, as JSON objects.
 
-use groundstate::mutation::{By, Candidate, Killed, Outcome, Proof, Score, Unseen};
-use serde::Serialize;
+use groundstate::mutation::{By, Candidate, Judging, Killed, Outcome, Proof, Score, Unseen};
+use serde::{Deserialize, Serialize};
 use syntax::Sources;
 
 use crate::Place;
@@ -9,92 +9,162 @@ use crate::Place;
 /// `{"type":"mutant",…}`: what became of a mutant.
 #[derive(Debug, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
-pub struct Mutant<'a> {
+pub struct Mutant {
     #[cfg_attr(test, schemars(extend("const" = "mutant")))]
     r#type: &'static str,
     operator: &'static str,
-    /// `killed`, `survived`, `equivalent`, `unknown` or `not-compiled`.
-    outcome: &'static str,
+    #[serde(flatten)]
+    became: Became,
     #[serde(flatten)]
     place: Place,
     /// The lines that it changes.
     before: Vec<String>,
     /// What they become.
     after: Vec<String>,
-    /// The property or the scenario that killed it.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    check: Option<&'a str>,
+}
+
+/// An outcome.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub struct Became {
+    /// `killed`, `survived`, `equivalent`, `unknown` or `not-compiled`.
+    outcome: String,
+    /// The property, or the path of the scenario or of the coupling, that killed it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    check: Option<String>,
     /// The model that has the property.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    model: Option<&'a str>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    model: Option<String>,
     /// After how many steps it was killed.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     steps: Option<u64>,
     /// If it survived: in how many reachable states more or fewer it differs, if that is known.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     states: Option<u64>,
     /// Of what is equivalent, the proof: `never-runs` or `same-steps`. Of what survived: `states`, `steps`, `nowhere`,
     /// `within-bounds` or `unmeasured`. Otherwise a clause.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    why: Option<&'a str>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    why: Option<String>,
 }
 
-impl<'a> Mutant<'a> {
+impl Mutant {
     /// The mutant and its outcome.
-    pub fn new(candidate: &Candidate, outcome: &'a Outcome) -> Mutant<'a> {
+    pub fn new(candidate: &Candidate, outcome: &Outcome) -> Mutant {
         let mut sources = Sources::default();
         let file = sources.add((*candidate.file).clone());
         let bytes = &candidate.mutant.place;
         let span = syntax::Span { file, start: bytes.start as u32, end: bytes.end as u32 };
         let change = candidate.change();
-        let mut mutant = Mutant {
+        Mutant {
             r#type: "mutant",
             operator: candidate.mutant.operator.id(),
-            outcome: "killed",
+            became: Became::of(outcome),
             place: Place::new(&sources, span),
             before: change.before,
             after: change.after,
+        }
+    }
+}
+
+impl Became {
+    /// The words for an outcome.
+    pub fn of(outcome: &Outcome) -> Became {
+        let plain = |word: &str, why: Option<&str>| Became {
+            outcome: word.to_string(),
             check: None,
             model: None,
             steps: None,
             states: None,
-            why: None,
+            why: why.map(str::to_string),
         };
         match outcome {
             Outcome::Killed(Killed { by, steps }) => {
-                mutant.steps = Some(*steps);
-                match by {
-                    By::Property { model, name } => {
-                        (mutant.model, mutant.check) = (Some(model.as_str()), Some(name.as_str()));
-                    }
-                    By::Scenario { path } => mutant.check = Some(path),
-                }
+                let (model, check) = match by {
+                    By::Property { model, name } => (Some(model.clone()), name.clone()),
+                    By::Scenario { path } | By::Refinement { path } => (None, path.clone()),
+                };
+                Became { model, check: Some(check), steps: Some(*steps), ..plain("killed", None) }
             }
             Outcome::Survived(unseen) => {
-                mutant.outcome = "survived";
-                mutant.why = Some(match unseen {
-                    Unseen::States(more) => {
-                        mutant.states = Some(*more);
-                        "states"
-                    }
-                    Unseen::Steps => "steps",
-                    Unseen::Nowhere => "nowhere",
-                    Unseen::WithinBounds => "within-bounds",
-                    Unseen::Unmeasured => "unmeasured",
-                });
+                let states = match unseen {
+                    Unseen::States(more) => Some(*more),
+                    Unseen::Steps | Unseen::Nowhere | Unseen::WithinBounds | Unseen::Unmeasured => None,
+                };
+                Became { states, ..plain("survived", Some(word_of(*unseen))) }
             }
-            Outcome::Equivalent(proof) => {
-                mutant.outcome = "equivalent";
-                mutant.why = Some(match proof {
-                    Proof::NeverRuns => "never-runs",
-                    Proof::SameSteps => "same-steps",
-                });
-            }
-            Outcome::Open(why) => (mutant.outcome, mutant.why) = ("unknown", Some(why.as_str())),
-            Outcome::NotCompiled(why) => (mutant.outcome, mutant.why) = ("not-compiled", Some(why.as_str())),
+            Outcome::Equivalent(proof) => plain("equivalent", Some(word_of_proof(*proof))),
+            Outcome::Open(why) => plain("unknown", Some(why)),
+            Outcome::NotCompiled(why) => plain("not-compiled", Some(why)),
         }
-        mutant
     }
+
+    /// The outcome; none if these are no words for one.
+    pub fn outcome(self) -> Option<Outcome> {
+        let Became { outcome, check, model, steps, states, why } = self;
+        Some(match outcome.as_str() {
+            "killed" => {
+                let name = check?;
+                let by = match model {
+                    Some(model) => By::Property { model, name },
+                    None if name.ends_with(".refine") => By::Refinement { path: name },
+                    None => By::Scenario { path: name },
+                };
+                Outcome::Killed(Killed { by, steps: steps? })
+            }
+            "survived" => {
+                let unseen = [Unseen::Steps, Unseen::Nowhere, Unseen::WithinBounds, Unseen::Unmeasured];
+                let unseen = unseen.into_iter().chain(states.map(Unseen::States));
+                Outcome::Survived(unseen.into_iter().find(|unseen| why.as_deref() == Some(word_of(*unseen)))?)
+            }
+            "equivalent" => {
+                let proofs = [Proof::NeverRuns, Proof::SameSteps];
+                Outcome::Equivalent(proofs.into_iter().find(|proof| why.as_deref() == Some(word_of_proof(*proof)))?)
+            }
+            "unknown" => Outcome::Open(why?),
+            "not-compiled" => Outcome::NotCompiled(why?),
+            _ => return None,
+        })
+    }
+}
+
+fn word_of(unseen: Unseen) -> &'static str {
+    match unseen {
+        Unseen::States(_) => "states",
+        Unseen::Steps => "steps",
+        Unseen::Nowhere => "nowhere",
+        Unseen::WithinBounds => "within-bounds",
+        Unseen::Unmeasured => "unmeasured",
+    }
+}
+
+fn word_of_proof(proof: Proof) -> &'static str {
+    match proof {
+        Proof::NeverRuns => "never-runs",
+        Proof::SameSteps => "same-steps",
+    }
+}
+
+/// `{"type":"mutation-results",…}`: the first line of a file in which outcomes are kept.
+#[derive(Debug, Serialize, Deserialize, PartialEq, Eq)]
+pub struct ResultsHead {
+    r#type: String,
+    version: u32,
+}
+
+impl Default for ResultsHead {
+    fn default() -> Self {
+        ResultsHead { r#type: "mutation-results".to_string(), version: 1 }
+    }
+}
+
+/// A line of such a file: an outcome under its key.
+#[derive(Debug, Serialize, Deserialize)]
+pub struct KeptOutcome {
+    /// The key.
+    pub key: String,
+    /// The outcome.
+    #[serde(flatten)]
+    pub became: Became,
 }
 
 /// `{"type":"mutation",…}`: how many mutants came to what.
@@ -107,12 +177,16 @@ pub struct Mutation<'a> {
     models: Vec<&'a str>,
     /// The scenarios that judged.
     scenarios: Vec<&'a str>,
+    /// The couplings that judged, if refinements do.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    couplings: Option<Vec<&'a str>>,
     /// All mutants.
     mutants: usize,
     /// Those that were judged.
     judged: usize,
     killed_by_properties: usize,
     killed_by_scenarios: usize,
+    killed_by_refinements: usize,
     survived: usize,
     equivalent: usize,
     unknown: usize,
@@ -129,7 +203,7 @@ pub struct Mutation<'a> {
 impl<'a> Mutation<'a> {
     /// The count: who judged; how many mutants there are, and how many were judged; the score, of a sample or of all.
     pub fn new(
-        (models, scenarios): (Vec<&'a str>, Vec<&'a str>),
+        judging: Judging<'a>,
         (mutants, judged): (usize, usize),
         score: &Score,
         sampled: bool,
@@ -138,12 +212,14 @@ impl<'a> Mutation<'a> {
         let interval = score.interval().filter(|_| sampled);
         Mutation {
             r#type: "mutation",
-            models,
-            scenarios,
+            models: judging.models,
+            scenarios: judging.scenarios,
+            couplings: judging.couplings,
             mutants,
             judged,
             killed_by_properties: score.by_verify,
             killed_by_scenarios: score.by_test,
+            killed_by_refinements: score.by_refine,
             survived: score.survived,
             equivalent: score.equivalent,
             unknown: score.open,
@@ -152,5 +228,38 @@ impl<'a> Mutation<'a> {
             score_of_all: score.percent_of_all().map(round),
             interval: interval.map(|interval| [round(100.0 * interval.low), round(100.0 * interval.high)]),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn outcomes_are_read_back() {
+        let property = By::Property { model: "A.asm".to_string(), name: "inv_a".to_string() };
+        let outcomes = [
+            Outcome::Killed(Killed { by: property, steps: 3 }),
+            Outcome::Killed(Killed { by: By::Refinement { path: "A.refine".to_string() }, steps: 2 }),
+            Outcome::Killed(Killed { by: By::Scenario { path: "A.avalla".to_string() }, steps: 0 }),
+            Outcome::Survived(Unseen::States(7)),
+            Outcome::Survived(Unseen::Steps),
+            Outcome::Survived(Unseen::Nowhere),
+            Outcome::Survived(Unseen::WithinBounds),
+            Outcome::Survived(Unseen::Unmeasured),
+            Outcome::Equivalent(Proof::NeverRuns),
+            Outcome::Equivalent(Proof::SameSteps),
+            Outcome::Open("the time was up".to_string()),
+            Outcome::NotCompiled("no such name".to_string()),
+        ];
+        for outcome in outcomes {
+            let line = KeptOutcome { key: "k".to_string(), became: Became::of(&outcome) };
+            let text = serde_json::to_string(&line).expect("it can be written");
+            let read: KeptOutcome = serde_json::from_str(&text).expect("it can be read");
+            assert_eq!(read.became.outcome(), Some(outcome), "{text}");
+        }
+        let wrong = r#"{"key":"k","outcome":"survived","why":"states"}"#;
+        let read: KeptOutcome = serde_json::from_str(wrong).expect("it can be read");
+        assert_eq!(read.became.outcome(), None);
     }
 }

@@ -77,6 +77,7 @@ fn every_command_writes_what_the_schema_says() {
         vec!["verify", "shells/cli/tests/cmd/verify.in/Free.asm", "--solver", "none"],
         vec!["verify", "shells/cli/tests/cmd/verify.in/Half.asm", "--engine", "bdd"],
         vec!["verify", "shells/cli/tests/cmd/verify.in/Idle.asm", "--vacuity"],
+        vec!["verify", "shells/cli/tests/cmd/verify.in/Idle.asm", "--coverage"],
         vec![
             "refine",
             "library/refinement/ManageAtOnce.asm",

@@ -11,7 +11,7 @@ use std::thread::{Builder, scope};
 
 use crate::Workspace;
 use crate::job::{Cancel, Job, Port, STACK};
-use crate::mutation::{Bench, Outcome, Timer, Wanted, Worker};
+use crate::mutation::{Bench, Ledger, Outcome, Timer, Wanted, Worker};
 use crate::workspace::Files;
 
 /// An event of a mutation analysis.
@@ -19,8 +19,8 @@ use crate::workspace::Files;
 pub enum MutateEvent {
     /// A model or a scenario is tried as it is.
     Tried(String),
-    /// All were; these many mutants are to be judged.
-    Begun(usize),
+    /// All were; so many mutants are to be judged, and of so many others the outcome was kept.
+    Begun(usize, usize),
     /// The mutant of this number was judged.
     Judged(usize, Box<Outcome>),
 }
@@ -32,6 +32,8 @@ pub struct Mutated {
     pub bench: Arc<Bench>,
     /// By mutant, the outcome; none if it was not judged.
     pub outcomes: Vec<Option<Outcome>>,
+    /// Of so many, the outcome was kept.
+    pub kept: usize,
 }
 
 /// A mutation analysis.
@@ -43,6 +45,8 @@ pub struct Hands<F> {
     pub files: Box<dyn Fn() -> F + Send + Sync>,
     /// Measures each judgement.
     pub timer: Arc<dyn Timer>,
+    /// Keeps outcomes from one analysis to the next.
+    pub ledger: Option<Box<dyn Ledger>>,
     /// How many mutants are judged at a time.
     pub workers: usize,
 }
@@ -64,39 +68,56 @@ pub fn mutate<F: Files + Send + 'static>(
     cancel: Cancel,
 ) -> io::Result<MutateJob> {
     Job::start("mutate", cancel.clone(), move |port| {
-        let mut workspace = Workspace::new((hands.files)());
+        let Hands { files, timer, ledger, workers } = hands;
+        let mut workspace = Workspace::new(files());
         let bench = Bench::new(wanted, &mut workspace, cancel.interrupt(), &mut |path| {
             port.tell(MutateEvent::Tried(path.to_string()));
         });
         let bench = Arc::new(bench);
         let mut outcomes = vec![None; bench.candidates.len()];
+        let mut kept = 0;
         if bench.unfit.is_empty() || !strict {
-            port.tell(MutateEvent::Begun(bench.candidates.len()));
-            judge(&bench, &hands, &port, &mut outcomes);
+            let mut ledger = ledger.map(|ledger| (ledger, keys(&bench)));
+            if let Some((ledger, keys)) = &ledger {
+                outcomes = keys.iter().map(|key| ledger.known(key)).collect();
+                kept = outcomes.iter().flatten().count();
+            }
+            port.tell(MutateEvent::Begun(outcomes.len() - kept, kept));
+            judge(&bench, (&*files, &*timer, workers), &port, &mut outcomes, &mut |number, outcome| {
+                if let Some((ledger, keys)) = ledger.as_mut().filter(|_| outcome.is_final()) {
+                    ledger.keep(&keys[number], outcome);
+                }
+            });
         }
-        Mutated { bench, outcomes }
+        Mutated { bench, outcomes, kept }
     })
 }
 
+fn keys(bench: &Bench) -> Vec<String> {
+    (0..bench.candidates.len()).map(|number| bench.key(number)).collect()
+}
+
+/// Judges those mutants that have no outcome yet.
 fn judge<F: Files + Send>(
     bench: &Arc<Bench>,
-    hands: &Hands<F>,
+    (files, timer, workers): (&(dyn Fn() -> F + Send + Sync), &dyn Timer, usize),
     port: &Port<MutateEvent>,
     outcomes: &mut [Option<Outcome>],
+    judged_one: &mut dyn FnMut(usize, &Outcome),
 ) {
+    let open: Vec<usize> = (0..outcomes.len()).filter(|number| outcomes[*number].is_none()).collect();
+    let open = &open;
     let (next, (sender, judged)) = (AtomicUsize::new(0), channel());
     let (next, cancel) = (&next, port.cancel.clone());
     scope(|scope| {
-        for _ in 0..hands.workers.clamp(1, outcomes.len().max(1)) {
-            let (sender, cancel, count) = (sender.clone(), cancel.clone(), outcomes.len());
+        for _ in 0..workers.clamp(1, open.len().max(1)) {
+            let (sender, cancel) = (sender.clone(), cancel.clone());
             let work = move || {
-                let mut worker = Worker::new(bench, (hands.files)());
+                let mut worker = Worker::new(bench, files());
                 loop {
-                    let number = next.fetch_add(1, Ordering::Relaxed);
-                    if number >= count || cancel.is_cancelled() {
-                        return;
-                    }
-                    let outcome = worker.judge(number, &*hands.timer);
+                    let next = next.fetch_add(1, Ordering::Relaxed);
+                    let Some(number) = open.get(next).copied().filter(|_| !cancel.is_cancelled()) else { return };
+                    let outcome = worker.judge(number, timer);
                     // What was stopped says nothing of the mutant.
                     if cancel.is_cancelled() && matches!(outcome, Outcome::Open(_) | Outcome::Survived(_)) {
                         return;
@@ -114,6 +135,7 @@ fn judge<F: Files + Send>(
         drop(sender);
         for (number, outcome) in judged {
             port.tell(MutateEvent::Judged(number, Box::new(outcome.clone())));
+            judged_one(number, &outcome);
             outcomes[number] = Some(outcome);
         }
     });

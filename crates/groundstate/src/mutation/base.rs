@@ -4,21 +4,25 @@
 //! of the model as it is judges nothing; one that a limit left open counts only as far as the search came.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::ops::RangeInclusive;
 use std::path::Path;
 use std::sync::Arc;
 
 use machine::Interrupt;
-use mutate::mutants;
+use mutate::{Mutant, mutants};
 use scenario::Options;
 use simulate::SplitMix;
 use syntax::{Diagnostic, SourceFile, Sources};
 use verify::{NoStart, Outcome, Reason, Report, Stop, Subject};
 
 use super::ask::{Asked, Counting};
+use super::drawn::{self, Drawn, Trouble};
+use super::link::{self, Link, Says};
 use super::{Candidate, Extent, Wanted};
+use crate::asked_of_system::draws_system;
 use crate::tell::Verdicts;
 use crate::workspace::{Files, NotLoaded, tidy};
-use crate::{Faulty, Loaded, SeededChoices, Suite, Workspace, own_files};
+use crate::{Faulty, Loaded, SeededChoices, Suite, Workspace, fingerprint, own_files, text_fingerprint};
 
 /// A model or a scenario that cannot judge.
 #[derive(Debug)]
@@ -37,6 +41,10 @@ pub struct Unfit {
 #[derive(Debug)]
 pub(super) struct Judge {
     pub path: String,
+    /// It is the system that a chart draws.
+    pub is_system: bool,
+    /// The paths of its texts.
+    pub files: BTreeSet<String>,
     pub beside: Option<SourceFile>,
     /// The model as it is.
     pub asked: Asked,
@@ -45,6 +53,8 @@ pub(super) struct Judge {
     pub states: Option<u64>,
     /// Places that no step runs: paths and bytes.
     pub never: Vec<(String, std::ops::Range<usize>)>,
+    /// A fingerprint of its texts, and of what it counts.
+    pub print: String,
 }
 
 /// A scenario that judges.
@@ -53,6 +63,29 @@ pub(super) struct Play {
     pub path: String,
     /// The paths of the texts that it runs.
     pub files: BTreeSet<String>,
+    /// A fingerprint of its own text and of these.
+    pub print: String,
+}
+
+/// The mutants by text, place and what comes there.
+type Made = BTreeMap<(String, usize, usize, Vec<String>), Candidate>;
+
+/// The paths of those who judge.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Judging<'b> {
+    /// The models, by their properties.
+    pub models: Vec<&'b str>,
+    /// The scenarios.
+    pub scenarios: Vec<&'b str>,
+    /// The couplings, if refinements judge.
+    pub couplings: Option<Vec<&'b str>>,
+}
+
+impl Judging<'_> {
+    /// Whether there is nobody.
+    pub fn is_empty(&self) -> bool {
+        self.models.is_empty() && self.scenarios.is_empty() && self.couplings.as_ref().is_none_or(Vec::is_empty)
+    }
 }
 
 /// Who judges, and what.
@@ -61,6 +94,8 @@ pub struct Bench {
     pub(super) wanted: Wanted,
     pub(super) judges: Vec<Judge>,
     pub(super) plays: Vec<Play>,
+    pub(super) links: Vec<Link>,
+    pub(super) drawn: Vec<Drawn>,
     /// The mutants to judge.
     pub candidates: Vec<Candidate>,
     /// How many mutants there are, of which these may be a sample.
@@ -77,8 +112,19 @@ impl Bench {
         interrupt: &Interrupt,
         say: &mut dyn FnMut(&str),
     ) -> Bench {
-        let mut bench = Bench { wanted, judges: vec![], plays: vec![], candidates: vec![], mutants: 0, unfit: vec![] };
-        let mut made: BTreeMap<(String, usize, usize, Vec<String>), Candidate> = BTreeMap::new();
+        let mut bench = Bench {
+            wanted,
+            judges: vec![],
+            plays: vec![],
+            links: vec![],
+            drawn: vec![],
+            candidates: vec![],
+            mutants: 0,
+            unfit: vec![],
+        };
+        let mut made = Made::new();
+        bench.draw_charts(workspace);
+        bench.judge_charts(workspace, interrupt, say);
         for path in bench.wanted.models.clone() {
             if interrupt.is_raised() {
                 break;
@@ -99,24 +145,29 @@ impl Bench {
                 continue;
             }
             say(&path);
-            if let Some(judge) = bench.judge(&path, &loaded, workspace, interrupt) {
-                bench.collect(&loaded, &mut made);
+            if let Some((judge, loaded)) = bench.judge((&path, false), workspace, interrupt) {
+                bench.collect(&loaded, Some(bench.judges.len()), &mut made);
                 bench.judges.push(judge);
             }
         }
+        bench.link(workspace, interrupt, say, &mut made);
         if bench.wanted.test {
             bench.play(workspace, interrupt, say);
         }
+        bench.collect_charts(&mut made);
         bench.candidates = made.into_values().collect();
         bench.mutants = bench.candidates.len();
         bench.draw();
         bench
     }
 
-    /// The paths of the models and scenarios that judge.
-    pub fn judging(&self) -> (Vec<&str>, Vec<&str>) {
-        let models = self.judges.iter().map(|judge| judge.path.as_str());
-        (models.collect(), self.plays.iter().map(|play| play.path.as_str()).collect())
+    /// Who judges.
+    pub fn judging(&self) -> Judging<'_> {
+        Judging {
+            models: self.judges.iter().map(|judge| judge.path.as_str()).collect(),
+            scenarios: self.plays.iter().map(|play| play.path.as_str()).collect(),
+            couplings: self.wanted.refine.then(|| self.links.iter().map(|link| link.path.as_str()).collect()),
+        }
     }
 
     fn unfit(&mut self, path: &str, why: String, sources: Sources, faults: Vec<Diagnostic>) {
@@ -128,12 +179,95 @@ impl Bench {
         self.wanted.mutated.contains(&tidy(name))
     }
 
-    /// Whether a model has a text to be mutated.
+    /// Whether a model has a text to be mutated, or that is built of one.
     fn concerns(&self, loaded: &Loaded) -> bool {
-        loaded.sources.iter().any(|(_, file)| self.is_mutated(&file.name))
+        loaded.sources.iter().any(|(_, file)| self.is_mutated(&file.name) || self.is_built(&file.name))
     }
 
-    fn collect(&self, loaded: &Loaded, made: &mut BTreeMap<(String, usize, usize, Vec<String>), Candidate>) {
+    /// Whether a text is built of a chart to be mutated.
+    fn is_built(&self, name: &str) -> bool {
+        self.drawn.iter().any(|drawn| drawn.model == tidy(name))
+    }
+
+    /// Builds the models of the charts to be mutated. They are the texts of their paths from now on.
+    fn draw_charts<F: Files>(&mut self, workspace: &mut Workspace<F>) {
+        for path in self.wanted.mutated.clone().into_iter().filter(|path| drawn::is_chart(path)) {
+            let is_new = workspace.text(&drawn::model_of(&path)).is_err();
+            let drawn = match drawn::built(&path, is_new, workspace) {
+                Ok(drawn) => drawn,
+                Err(Trouble { why, sources, faults }) => {
+                    self.unfit(&path, why, sources, faults);
+                    continue;
+                }
+            };
+            if is_new {
+                // No text is newer than the first one.
+                let _ = workspace.set_text(&drawn.model, 0, drawn.text.as_str());
+            } else if workspace.text(&drawn.model).is_ok_and(|there| *there.text != *drawn.text) {
+                let why = format!("is not what {} was built of: build it again", drawn.model);
+                self.unfit(&path, why, Sources::default(), Vec::new());
+                continue;
+            }
+            self.drawn.push(drawn);
+        }
+    }
+
+    /// The charts that judge: by their systems, or by the models that are built of them.
+    fn judge_charts<F: Files>(
+        &mut self,
+        workspace: &mut Workspace<F>,
+        interrupt: &Interrupt,
+        say: &mut dyn FnMut(&str),
+    ) {
+        for path in self.wanted.charts.clone() {
+            let is_mutated = self.drawn.iter().any(|drawn| tidy(&drawn.chart.name) == path);
+            if !is_mutated || interrupt.is_raised() {
+                continue;
+            }
+            let draws_system = workspace.text(&path).is_ok_and(|chart| draws_system(&chart));
+            let judging = if draws_system { path.clone() } else { drawn::model_of(&path) };
+            if !draws_system && workspace.load(&judging).is_ok_and(|loaded| loaded.model.main.is_none()) {
+                continue;
+            }
+            say(&judging);
+            if let Some((judge, _)) = self.judge((&judging, draws_system), workspace, interrupt) {
+                self.judges.push(judge);
+            }
+        }
+    }
+
+    /// Makes the mutants of charts. A chart is judged by its system, and by the models that have the model that is built of it.
+    fn collect_charts(&self, made: &mut Made) {
+        for drawn in &self.drawn {
+            let name = tidy(&drawn.chart.name);
+            let shared = Arc::new(SourceFile::new(name.clone(), Arc::clone(&drawn.chart.text)));
+            let judges = |judge: &&Judge| if judge.is_system { judge.path == name } else { judge.files.contains(&drawn.model) };
+            let models = self.judges.iter().enumerate().filter(|(_, judge)| judges(judge)).map(|(index, _)| index);
+            let models: Vec<usize> = models.collect();
+            let mutants = mutate::chart_mutants(&drawn.chart.text);
+            for mutant in mutants.into_iter().filter(|mutant| self.is_wanted(mutant, &shared)) {
+                let new = Candidate {
+                    file: Arc::clone(&shared),
+                    mutant,
+                    models: models.clone(),
+                    builds: Some(drawn.model.clone()),
+                };
+                made.insert(key(&new), new);
+            }
+        }
+    }
+
+    /// Whether a mutant is by one of the operators, and in one of the lines.
+    fn is_wanted(&self, mutant: &Mutant, file: &SourceFile) -> bool {
+        let line = file.line_column(mutant.place.start as u32).line;
+        let last = file.line_column(mutant.place.end as u32).line;
+        let lines = self.wanted.lines.as_ref().map(|lines| lines.get(&file.name).map_or(&[][..], Vec::as_slice));
+        let touched = |range: &RangeInclusive<u32>| *range.start() <= last && line <= *range.end();
+        self.wanted.operators.contains(&mutant.operator) && lines.is_none_or(|lines| lines.iter().any(touched))
+    }
+
+    /// Makes the mutants of a model's texts; if the model judges them, that is its number.
+    fn collect(&self, loaded: &Loaded, judge: Option<usize>, made: &mut Made) {
         let own = own_files(&loaded.sources);
         for (id, file) in loaded.sources.iter() {
             let name = tidy(&file.name);
@@ -141,22 +275,10 @@ impl Bench {
                 continue;
             }
             let shared = Arc::new(SourceFile::new(name.clone(), Arc::clone(&file.text)));
-            for mutant in mutants(&loaded.model, &loaded.sources, id) {
-                let line = file.line_column(mutant.place.start as u32).line;
-                let last = file.line_column(mutant.place.end as u32).line;
-                let lines = self.wanted.lines.as_ref().map(|lines| lines.get(&name).map_or(&[][..], Vec::as_slice));
-                let touched = |lines: &[_]| {
-                    lines
-                        .iter()
-                        .any(|range: &std::ops::RangeInclusive<u32>| *range.start() <= last && line <= *range.end())
-                };
-                if !self.wanted.operators.contains(&mutant.operator) || !lines.is_none_or(touched) {
-                    continue;
-                }
-                let texts = mutant.edits.iter().map(|edit| edit.text.clone()).collect();
-                let key = (name.clone(), mutant.place.start, mutant.place.end, texts);
-                let new = Candidate { file: Arc::clone(&shared), mutant, models: Vec::new() };
-                made.entry(key).or_insert(new).models.push(self.judges.len());
+            let mutants = mutants(&loaded.model, &loaded.sources, id);
+            for mutant in mutants.into_iter().filter(|mutant| self.is_wanted(mutant, &shared)) {
+                let new = Candidate { file: Arc::clone(&shared), mutant, models: Vec::new(), builds: None };
+                made.entry(key(&new)).or_insert(new).models.extend(judge);
             }
         }
     }
@@ -180,36 +302,38 @@ impl Bench {
         self.candidates = left;
     }
 
-    /// A model as a judge; none if it does not pass itself.
+    /// A model as a judge, or the system of a chart; none if it does not pass itself.
     fn judge<F: Files>(
         &mut self,
-        path: &str,
-        loaded: &Loaded,
+        (path, is_system): (&str, bool),
         workspace: &mut Workspace<F>,
         interrupt: &Interrupt,
-    ) -> Option<Judge> {
+    ) -> Option<(Judge, Arc<Loaded>)> {
         let spec = Path::new(path).with_extension("verify.yaml");
         let beside = workspace.text(&spec.to_string_lossy()).ok();
-        let asked = match Asked::of(loaded, beside.as_ref(), &mut workspace.texts()) {
+        let (loaded, asked) = match asked((path, is_system), beside.as_ref(), workspace) {
             Ok(asked) => asked,
-            Err((sources, faults)) => {
-                self.unfit(path, "has a .verify.yaml with faults".to_string(), sources, faults);
+            Err(Trouble { why, sources, faults }) => {
+                self.unfit(path, why, sources, faults);
                 return None;
             }
         };
         let mut judge = Judge {
             path: path.to_string(),
+            is_system,
+            files: loaded.sources.iter().map(|(_, file)| tidy(&file.name)).collect(),
             beside,
             asked,
             counting: Counting::default(),
             states: None,
             never: Vec::new(),
+            print: String::new(),
         };
         if self.wanted.verify {
             match judge.asked.verified(&self.wanted.extent, (None, false), interrupt) {
                 Ok(report) => match counting(&report, &judge.asked) {
                     Ok(counting) => {
-                        judge.note(&report, loaded, counting);
+                        judge.note(&report, &loaded, counting);
                     }
                     Err(why) => {
                         self.unfit(path, why, Sources::default(), Vec::new());
@@ -229,8 +353,57 @@ impl Bench {
                 }
             }
         }
+        let beside = judge.beside.as_ref().map(|beside| text_fingerprint(&beside.text));
+        let texts = fingerprint(&loaded.sources);
+        judge.print = format!("{path} {texts} {beside:?} {:?} {:?}", judge.counting, judge.states);
         judge.asked = judge.asked.clone().counting(&judge.counting);
-        Some(judge)
+        Some((judge, loaded))
+    }
+
+    /// Asks the couplings that are about a text to be mutated, and keeps those that refine.
+    fn link<F: Files>(
+        &mut self,
+        workspace: &mut Workspace<F>,
+        interrupt: &Interrupt,
+        say: &mut dyn FnMut(&str),
+        made: &mut Made,
+    ) {
+        for path in self.wanted.couplings.clone() {
+            if interrupt.is_raised() || !self.wanted.refine {
+                break;
+            }
+            let files = link::files(&path, workspace);
+            let concerned = match self.wanted.imports {
+                true => self.judges.is_empty() || self.judges.iter().any(|judge| files.contains(&tidy(&judge.path))),
+                false => {
+                    files.is_empty() || files.iter().any(|file| self.is_mutated(file) || self.is_built(file))
+                }
+            };
+            if !concerned {
+                continue;
+            }
+            say(&path);
+            let (link, said) = link::ask(&path, workspace, &self.wanted.extent, interrupt);
+            match said {
+                Says::Refines => {
+                    for model in &link.models {
+                        if let Ok(loaded) = workspace.load(model) {
+                            self.collect(&loaded, None, made);
+                        }
+                    }
+                    self.links.push(link);
+                }
+                _ if interrupt.is_raised() => break,
+                Says::DoesNot(_) => {
+                    let why = "does not pass as it is: it is no refinement".to_string();
+                    self.unfit(&path, why, Sources::default(), Vec::new());
+                }
+                Says::Open(why) => {
+                    self.unfit(&path, format!("is not decided as it is: {why}"), Sources::default(), Vec::new());
+                }
+                Says::Unfit(why, sources, faults) => self.unfit(&path, why, sources, faults),
+            }
+        }
     }
 
     /// Runs the scenarios that run a text to be mutated, and keeps those that pass.
@@ -257,10 +430,13 @@ impl Bench {
             let files: BTreeSet<String> = tested.sources.iter().map(|(_, file)| tidy(&file.name)).collect();
             let concerned = match self.wanted.imports {
                 true => self.judges.iter().any(|judge| files.contains(&tidy(&judge.path))),
-                false => files.iter().any(|file| self.wanted.mutated.contains(file)),
+                false => files.iter().any(|file| self.wanted.mutated.contains(file) || self.is_built(file)),
             };
             match (concerned, tested.passed()) {
-                (true, true) => self.plays.push(Play { path, files }),
+                (true, true) => {
+                    let print = format!("{path} {}", fingerprint(&tested.sources));
+                    self.plays.push(Play { path, files, print });
+                }
                 (true, false) if interrupt.is_raised() => break,
                 (true, false) => {
                     let faults = tested.failures();
@@ -270,6 +446,34 @@ impl Bench {
             }
         }
     }
+}
+
+/// What a model asks, or the system of a chart, by their texts as they are now.
+pub(super) fn asked<F: Files>(
+    (path, is_system): (&str, bool),
+    beside: Option<&SourceFile>,
+    workspace: &mut Workspace<F>,
+) -> Result<(Arc<Loaded>, Asked), Trouble> {
+    if is_system {
+        return drawn::system(path, beside, workspace).map(|(loaded, asked)| (Arc::new(loaded), asked));
+    }
+    let loaded = workspace.load(path).map_err(|not| match not {
+        NotLoaded::Absent(absent) => Trouble::plain(absent.told(path)),
+        NotLoaded::Faulty(faulty) => {
+            let Faulty { sources, diagnostics } = *faulty;
+            Trouble { why: "has faults".to_string(), sources, faults: diagnostics }
+        }
+    })?;
+    let asked = Asked::of(&loaded, beside, &mut workspace.texts());
+    let trouble = |(sources, faults)| Trouble { why: drawn::BESIDE.to_string(), sources, faults };
+    asked.map(|asked| (loaded, asked)).map_err(trouble)
+}
+
+/// A mutant's text, place and what comes there.
+fn key(candidate: &Candidate) -> (String, usize, usize, Vec<String>) {
+    let Candidate { file, mutant, .. } = candidate;
+    let texts = mutant.edits.iter().map(|edit| edit.text.clone()).collect();
+    (file.name.clone(), mutant.place.start, mutant.place.end, texts)
 }
 
 /// How scenarios are run.
@@ -285,8 +489,9 @@ impl Judge {
         self.states = (!stopped).then_some(report.progress.states);
         self.counting = counting;
         let place = |span: &syntax::Span| (tidy(&loaded.sources.file(span.file).name), span.range());
-        // The list is empty unless every state was visited.
-        self.never = report.unreachable.iter().map(place).collect();
+        // The list is empty unless every state was visited. A system's rules stand in no text.
+        let unreachable = report.unreachable.iter().filter(|_| !self.is_system);
+        self.never = unreachable.map(place).collect();
     }
 }
 

@@ -7,17 +7,19 @@
 use std::sync::Arc;
 
 use machine::{FaultKind, Interrupt};
-use mutate::{Differs, Extent, Variant, same};
+use mutate::{Differs, Extent, Operator, Variant, same};
 use scenario::FailureKind;
 use verify::{NoStart, Reason, Report, Stop, Subject};
 
 use super::ask::Asked;
-use super::base::{Bench, Judge, play_options};
+use super::base::{Bench, Judge, asked, play_options};
+use super::drawn::{self, Trouble, declare_alike};
+use super::link::{self, Link, Says};
 use super::outcome::{By, Killed, Outcome, Proof, Unseen};
 use super::{Candidate, Timer};
 use crate::tell::Verdicts;
-use crate::workspace::{Files, NotLoaded, tidy};
-use crate::{Loaded, SeededChoices, Suite, Workspace};
+use crate::workspace::{Files, tidy};
+use crate::{SeededChoices, Suite, Workspace};
 
 /// Judges mutants.
 #[derive(Debug)]
@@ -38,7 +40,12 @@ enum Said {
 impl<F: Files> Worker<F> {
     /// A worker who reads texts from these files.
     pub fn new(bench: &Arc<Bench>, files: F) -> Worker<F> {
-        Worker { bench: Arc::clone(bench), workspace: Workspace::new(files), version: 0 }
+        let mut workspace = Workspace::new(files);
+        for drawn in &bench.drawn {
+            // Perhaps it was never written. No text is newer than the first one.
+            let _ = workspace.set_text(&drawn.model, 0, drawn.text.as_str());
+        }
+        Worker { bench: Arc::clone(bench), workspace, version: 0 }
     }
 
     /// Judges the mutant of this number.
@@ -52,10 +59,28 @@ impl<F: Files> Worker<F> {
             return Outcome::Open("its text could not be set".to_string());
         }
         let interrupt = timer.begin();
-        let outcome = self.judged(&bench, candidate, &interrupt);
+        let outcome = self.build(&bench, candidate).and_then(|()| self.judged(&bench, candidate, &interrupt));
         timer.end(&interrupt);
         self.workspace.close(path);
+        for drawn in bench.drawn.iter().filter(|drawn| candidate.builds.as_ref() == Some(&drawn.model)) {
+            self.version += 1;
+            let _ = self.workspace.set_text(&drawn.model, self.version, drawn.text.as_str());
+        }
         outcome.unwrap_or_else(|outcome| outcome)
+    }
+
+    /// Builds the model of a chart that is a mutant.
+    fn build(&mut self, bench: &Bench, candidate: &Candidate) -> Result<(), Outcome> {
+        let base = bench.drawn.iter().find(|drawn| candidate.builds.as_ref() == Some(&drawn.model));
+        let Some(base) = base else { return Ok(()) };
+        let drawn = drawn::built(&candidate.file.name, base.is_new, &mut self.workspace);
+        let drawn = drawn.map_err(|trouble| not_compiled(&trouble.faults))?;
+        // An initial state that is not the chart's own is kept, so the model would not show the fault.
+        if candidate.mutant.operator == Operator::StartMoved && drawn.text == base.text {
+            return Err(Outcome::Open(format!("{} keeps its own initial state", base.model)));
+        }
+        let set = self.workspace.set_text(&drawn.model, self.version, drawn.text);
+        set.map_err(|_| Outcome::Open("its model could not be set".to_string()))
     }
 
     /// The outcome; as an error if it ends the judgement early.
@@ -66,9 +91,8 @@ impl<F: Files> Worker<F> {
             if judge.never_runs(candidate) {
                 continue;
             }
-            let loaded = self.loaded(&judge.path)?;
-            let asked = Asked::of(&loaded, judge.beside.as_ref(), &mut self.workspace.texts());
-            let asked = asked.map_err(|(_, faults)| not_compiled(&faults))?.counting(&judge.counting);
+            let asked = asked((&judge.path, judge.is_system), judge.beside.as_ref(), &mut self.workspace);
+            let asked = asked.map_err(refused)?.1.counting(&judge.counting);
             let said = match bench.wanted.verify {
                 true => verified(bench, judge, &asked, interrupt)?,
                 false => Said::Passes(None),
@@ -79,17 +103,11 @@ impl<F: Files> Worker<F> {
             }
         }
         self.played(bench, candidate, interrupt, &mut open)?;
+        self.refined(bench, candidate, interrupt, &mut open)?;
         if let Some(why) = open {
             return Ok(Outcome::Open(why));
         }
         Ok(compared(bench, candidate, variants, interrupt))
-    }
-
-    fn loaded(&mut self, path: &str) -> Result<Arc<Loaded>, Outcome> {
-        self.workspace.load(path).map_err(|not| match not {
-            NotLoaded::Absent(absent) => Outcome::Open(absent.told(path)),
-            NotLoaded::Faulty(faulty) => not_compiled(&faulty.diagnostics),
-        })
     }
 
     /// Runs the scenarios that run the mutated text.
@@ -102,7 +120,7 @@ impl<F: Files> Worker<F> {
     ) -> Result<(), Outcome> {
         let mut suite = Suite::new();
         let options = play_options(&bench.wanted.extent, interrupt);
-        for play in bench.plays.iter().filter(|play| play.files.contains(&candidate.file.name)) {
+        for play in bench.plays.iter().filter(|play| play.files.contains(candidate.runs())) {
             let Ok(source) = self.workspace.text(&play.path) else { continue };
             let texts = &mut self.workspace.texts();
             let tested = suite.test(source, texts, options.clone(), &mut SeededChoices::new(0));
@@ -125,6 +143,30 @@ impl<F: Files> Worker<F> {
     }
 }
 
+impl<F: Files> Worker<F> {
+    /// Asks the couplings that are about the mutated text.
+    fn refined(
+        &mut self,
+        bench: &Bench,
+        candidate: &Candidate,
+        interrupt: &Interrupt,
+        open: &mut Option<String>,
+    ) -> Result<(), Outcome> {
+        for link in bench.links.iter().filter(|link| link.files.contains(candidate.runs())) {
+            match link::ask(&link.path, &mut self.workspace, &bench.wanted.extent, interrupt).1 {
+                Says::Refines => {}
+                Says::DoesNot(steps) => {
+                    let by = By::Refinement { path: link.path.clone() };
+                    return Err(Outcome::Killed(Killed { by, steps }));
+                }
+                Says::Open(why) => *open = Some(why),
+                Says::Unfit(_, _, faults) => return Err(not_compiled(&faults)),
+            }
+        }
+        Ok(())
+    }
+}
+
 impl Judge {
     /// Whether the mutant is in a rule that no reachable state runs.
     fn never_runs(&self, candidate: &Candidate) -> bool {
@@ -133,6 +175,13 @@ impl Judge {
             && self.never.iter().any(|(path, bytes)| {
                 tidy(&candidate.file.name) == *path && bytes.start <= place.start && place.end <= bytes.end
             })
+    }
+}
+
+fn refused(trouble: Trouble) -> Outcome {
+    match trouble.faults.is_empty() {
+        true => Outcome::Open(trouble.why),
+        false => not_compiled(&trouble.faults),
     }
 }
 
@@ -231,8 +280,15 @@ fn compared(
             Err(Differs::TooFar | Differs::Beyond) => unmeasured = true,
         }
     }
+    // A model of a coupling that does not judge by its properties was not explored.
+    let explored = |model: &String| candidate.models.iter().any(|index| bench.judges[*index].path == *model);
+    let about = |link: &&Link| link.files.contains(candidate.runs());
+    let all = bench.links.iter().filter(about).all(|link| link.models.iter().all(explored));
+    // The model that verifies a system leaves out what no property looks at.
+    let all = all && !candidate.models.iter().any(|index| bench.judges[*index].is_system);
     match (more, steps, unmeasured) {
-        (0, false, false) if !bench.wanted.whole => Outcome::Survived(Unseen::Nowhere),
+        (0, false, false) if candidate.models.is_empty() => Outcome::Survived(Unseen::Unmeasured),
+        (0, false, false) if !(bench.wanted.whole && all) => Outcome::Survived(Unseen::Nowhere),
         // Other values of the inputs may get to where it shows.
         (0, false, false) if is_bounded => Outcome::Survived(Unseen::WithinBounds),
         (0, false, false) if runs => Outcome::Equivalent(Proof::SameSteps),
@@ -251,6 +307,9 @@ fn are_same(
     interrupt: &Interrupt,
 ) -> Result<(), Differs> {
     let mut asked = judge.asked.clone();
+    if candidate.builds.is_some() && !declare_alike(asked.program(), mutated.program()) {
+        return Err(Differs::Beyond);
+    }
     let mut observed = [Vec::new(), Vec::new()];
     if let Some(function) = &candidate.mutant.function {
         for (asked, observed) in [&mut asked, &mut mutated].into_iter().zip(&mut observed) {

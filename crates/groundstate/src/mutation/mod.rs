@@ -6,8 +6,12 @@
 
 mod ask;
 mod base;
+mod drawn;
 mod judge;
+mod ledger;
+mod link;
 mod outcome;
+mod page;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::RangeInclusive;
@@ -17,17 +21,23 @@ use machine::{Interrupt, Limits};
 use mutate::{Change, Mutant, Operator};
 use syntax::{LineColumn, SourceFile};
 
-pub use base::{Bench, Unfit};
+pub use base::{Bench, Judging, Unfit};
 pub use judge::Worker;
+pub use ledger::Ledger;
 pub use outcome::{By, Killed, Outcome, Proof, Score, Unseen, score, surprising};
+pub use page::mutation_page;
 
 /// What is to be mutated, and who judges.
 #[derive(Debug, Clone)]
 pub struct Wanted {
     /// Paths of the models that judge by their properties, and are run by scenarios.
     pub models: Vec<String>,
+    /// Paths of the charts that judge: by the properties of the systems that they draw, or of the models that are built of them.
+    pub charts: Vec<String>,
     /// Paths of the scenarios that judge.
     pub scenarios: Vec<String>,
+    /// Paths of the coupling files that judge.
+    pub couplings: Vec<String>,
     /// Paths of the texts to mutate.
     pub mutated: BTreeSet<String>,
     /// Also mutate what the models import, unless it belongs to a built-in library.
@@ -38,6 +48,8 @@ pub struct Wanted {
     pub verify: bool,
     /// Judge by the scenarios.
     pub test: bool,
+    /// Judge by the couplings.
+    pub refine: bool,
     /// The operators.
     pub operators: Vec<Operator>,
     /// Only mutants of these lines of each path.
@@ -77,12 +89,19 @@ pub struct Candidate {
     pub mutant: Mutant,
     /// The models, by number, that run what is mutated.
     pub models: Vec<usize>,
+    /// The path of the model that is built of the text, if that is a chart.
+    pub builds: Option<String>,
 }
 
 impl Candidate {
     /// Where the fault is.
     pub fn place(&self) -> LineColumn {
         self.file.line_column(self.mutant.place.start as u32)
+    }
+
+    /// The path of the text that runs.
+    pub(super) fn runs(&self) -> &str {
+        self.builds.as_deref().unwrap_or(&self.file.name)
     }
 
     /// The lines that the fault changes.

@@ -5,6 +5,7 @@
 use mutate::{Interval, interval};
 
 use super::Candidate;
+use crate::tell::plural;
 
 /// What became of a mutant.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -45,6 +46,11 @@ pub enum By {
         /// Its path.
         path: String,
     },
+    /// A refinement.
+    Refinement {
+        /// The path of the coupling.
+        path: String,
+    },
 }
 
 /// How much a mutant that survived differs from the model.
@@ -71,6 +77,32 @@ pub enum Proof {
     SameSteps,
 }
 
+impl Outcome {
+    /// How it came to that, as a clause.
+    pub fn remark(&self) -> String {
+        match self {
+            Outcome::Killed(Killed { by, steps }) => {
+                let by = match by {
+                    By::Property { model, name } => format!("{name} of {model}"),
+                    By::Scenario { path } | By::Refinement { path } => path.clone(),
+                };
+                format!("by {by}, after {}", plural(*steps as usize, "step"))
+            }
+            Outcome::Survived(unseen) => match unseen {
+                Unseen::States(1) => "one reachable state more or less".to_string(),
+                Unseen::States(more) => format!("{more} reachable states more or fewer"),
+                Unseen::Steps => "as many states, other steps".to_string(),
+                Unseen::Nowhere => "no reachable state differs".to_string(),
+                Unseen::WithinBounds => "no reachable state differs within the bounds of inputs".to_string(),
+                Unseen::Unmeasured => "not compared in every state".to_string(),
+            },
+            Outcome::Equivalent(Proof::NeverRuns) => "no reachable state runs it".to_string(),
+            Outcome::Equivalent(Proof::SameSteps) => "the same steps from every reachable state".to_string(),
+            Outcome::Open(why) | Outcome::NotCompiled(why) => why.clone(),
+        }
+    }
+}
+
 /// How many mutants came to what.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Score {
@@ -78,6 +110,8 @@ pub struct Score {
     pub by_verify: usize,
     /// Killed by a scenario.
     pub by_test: usize,
+    /// Killed by a refinement.
+    pub by_refine: usize,
     /// Survived.
     pub survived: usize,
     /// Equivalent.
@@ -91,7 +125,7 @@ pub struct Score {
 impl Score {
     /// Those that were killed.
     pub fn killed(&self) -> usize {
-        self.by_verify + self.by_test
+        self.by_verify + self.by_test + self.by_refine
     }
 
     /// Those that were judged and could be noticed.
@@ -131,6 +165,7 @@ pub fn score<'o>(outcomes: impl IntoIterator<Item = &'o Outcome>) -> Score {
         *match outcome {
             Outcome::Killed(Killed { by: By::Property { .. }, .. }) => &mut score.by_verify,
             Outcome::Killed(Killed { by: By::Scenario { .. }, .. }) => &mut score.by_test,
+            Outcome::Killed(Killed { by: By::Refinement { .. }, .. }) => &mut score.by_refine,
             Outcome::Survived(_) => &mut score.survived,
             Outcome::Equivalent(_) => &mut score.equivalent,
             Outcome::Open(_) => &mut score.open,

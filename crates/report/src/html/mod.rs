@@ -8,10 +8,12 @@ mod charts;
 mod data;
 mod figures;
 mod lanes;
+mod mutation;
 mod program;
 mod tables;
 mod verdicts;
 
+pub use mutation::render_mutation;
 pub use program::render_program;
 
 use crate::markup::{Text, put};

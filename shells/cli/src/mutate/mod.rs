@@ -1,9 +1,11 @@
-//! `groundstate mutate PATH…`: puts small faults into models and tells which no property and no scenario notices.
+//! `groundstate mutate PATH…`: puts small faults into models and tells which no property, no scenario and no
+//! refinement notices.
 //!
 //! Exit codes: 0 every mutant is killed or equivalent, 1 some survive or something does not pass as it is, 3 none survives
 //! but some are not known.
 
 mod find;
+mod results;
 mod since;
 mod tell;
 mod timer;
@@ -15,28 +17,29 @@ use std::time::Duration;
 use clap::Args;
 use groundstate::job::{self, Cancel, Hands, MutateEvent};
 use groundstate::mutate::Operator;
-use groundstate::mutation::{Bench, Extent, Wanted};
+use groundstate::mutation::{Bench, Extent, Ledger, Wanted, mutation_page};
 
 use crate::exit::Exit;
 use crate::failure::Failure;
-use crate::files::Disk;
+use crate::files::{Disk, write_text};
 use crate::interrupt;
 use crate::progress::Progress;
 use crate::shell::Shell;
 use find::Found;
+use results::Results;
 use timer::Clock;
 
 /// Arguments of `mutate`.
 #[derive(Debug, Args)]
 pub struct Arguments {
-    /// The models to mutate, or folders of them
+    /// The models and charts to mutate, or folders of models
     #[arg(required_unless_present = "list_operators", value_name = "PATH")]
     paths: Vec<PathBuf>,
-    /// Models and scenarios that judge, or folders of them; may be repeated. Default: the models that are mutated, and the
-    /// scenarios in their folders
+    /// Models, scenarios and couplings that judge, or folders of them; may be repeated. Default: the models that are
+    /// mutated, and the scenarios and couplings in their folders
     #[arg(long, value_name = "PATH")]
     by: Vec<PathBuf>,
-    /// Who judges: the properties, the scenarios, or both
+    /// Who judges: properties, scenarios, refinements
     #[arg(long, value_enum, value_delimiter = ',', value_name = "WHO", default_values_t = [With::Verify, With::Test])]
     with: Vec<With>,
     /// Only these operators, by their ids
@@ -69,6 +72,12 @@ pub struct Arguments {
     /// How many mutants are judged at a time. Default: the number of processors
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=256))]
     jobs: Option<u64>,
+    /// Keep the outcomes in this file, and judge no mutant again whose outcome it has: by the same judges with the same texts
+    #[arg(long, value_name = "FILE")]
+    results: Option<PathBuf>,
+    /// Write a page (HTML) with the survivors, and the texts with what became of the mutants of each line
+    #[arg(long, value_name = "FILE.html")]
+    page: Option<PathBuf>,
     /// Tell every mutant, not only those that survive
     #[arg(long)]
     all: bool,
@@ -81,6 +90,8 @@ enum With {
     Verify,
     /// Scenarios
     Test,
+    /// Couplings: what refines as it is must refine with the mutant, too
+    Refine,
 }
 
 fn operator(id: &str) -> Result<Operator, String> {
@@ -110,12 +121,15 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     let strict = found.strict;
     let wanted = Wanted {
         models: found.models,
+        charts: found.charts,
         scenarios: found.scenarios,
+        couplings: found.couplings,
         mutated: found.mutated,
         imports: arguments.imports,
         whole: arguments.by.is_empty(),
         verify: arguments.with.contains(&With::Verify),
         test: arguments.with.contains(&With::Test),
+        refine: arguments.with.contains(&With::Refine),
         operators,
         lines,
         sample: arguments.sample.map(|size| (size, arguments.seed)),
@@ -128,9 +142,12 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     interrupt::listen();
     interrupt::bound_memory(arguments.max_memory);
     let limit = shell.global.limits.max_file_size;
+    let results = arguments.results.as_deref().map(Results::open).transpose()?;
+    let (ledger, trouble) = results.unzip();
     let hands = Hands {
         files: Box::new(move || Disk { limit }),
         timer: Clock::start(Duration::from_secs(arguments.time)),
+        ledger: ledger.map(|ledger| Box::new(ledger) as Box<dyn Ledger>),
         workers: jobs,
     };
     let started = job::mutate(wanted, hands, strict, Cancel::from(interrupt::request().clone()));
@@ -140,7 +157,7 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     while let Some(event) = job.next_event() {
         match event {
             MutateEvent::Tried(_) => {}
-            MutateEvent::Begun(count) => {
+            MutateEvent::Begun(count, _) => {
                 progress = Some(Progress::of("mutants", count as u64, shell.global.quiet || shell.json()));
             }
             MutateEvent::Judged(..) => {
@@ -154,7 +171,13 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     if let Some(exit) = unfit(shell, &mutated.bench, strict)? {
         return Ok(exit);
     }
-    tell::told(shell, &mutated, arguments.sample.is_some(), arguments.all)
+    if let Some(path) = &arguments.page {
+        let page = mutation_page(&mutated.bench, &mutated.outcomes, arguments.sample.is_some());
+        write_text(path, &::report::render_mutation(&page))?;
+    }
+    let exit = tell::told(shell, &mutated, arguments.sample.is_some(), arguments.all)?;
+    let failed = arguments.results.as_deref().zip(trouble).and_then(|(path, trouble)| results::failed(path, &trouble));
+    failed.map_or(Ok(exit), Err)
 }
 
 const MUST_PASS: &str = "a model must pass its properties and scenarios before they can be judged by mutants";
@@ -172,14 +195,13 @@ fn unfit(shell: &mut Shell, bench: &Bench, strict: bool) -> Result<Option<Exit>,
             shell.note(&format!("{left_out}{} {}", unfit.path, unfit.why))?;
         }
     }
-    let (models, scenarios) = bench.judging();
     if strict && !bench.unfit.is_empty() {
         if !shell.json() {
             shell.note(MUST_PASS)?;
         }
         return Ok(Some(Exit::Model));
     }
-    if models.is_empty() && scenarios.is_empty() && !interrupt::asked() {
+    if bench.judging().is_empty() && !interrupt::asked() {
         let help = "name models with a main rule, or with --by those that import the files to be mutated";
         return Err(Failure::usage_with_help("nothing judges these files", help));
     }

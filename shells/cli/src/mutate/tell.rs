@@ -6,7 +6,7 @@ use std::io::Write;
 
 use groundstate::job::Mutated;
 use groundstate::mutate::Change;
-use groundstate::mutation::{By, Candidate, Killed, Outcome, Proof, Score, Unseen, score, surprising};
+use groundstate::mutation::{Candidate, Judging, Outcome, Score, score, surprising};
 use groundstate::tell::plural;
 
 use crate::exit::Exit;
@@ -49,47 +49,31 @@ pub fn told(shell: &mut Shell, mutated: &Mutated, sampled: bool, all: bool) -> R
 fn mutants(shell: &mut Shell, judged: &[(Candidate, Outcome)], all: bool) -> Result<(), Failure> {
     if all && shell.talks() {
         for (candidate, outcome) in judged {
-            let told = match outcome {
-                Outcome::Killed(Killed { by: By::Property { model, name }, steps }) => {
-                    format!("by {name} of {model}, after {}", plural(*steps as usize, "step"))
-                }
-                Outcome::Killed(Killed { by: By::Scenario { path }, steps }) => {
-                    format!("by {path}, after {}", plural(*steps as usize, "step"))
-                }
-                Outcome::Equivalent(Proof::NeverRuns) => "no reachable state runs it".to_string(),
-                Outcome::Equivalent(Proof::SameSteps) => "the same steps from every reachable state".to_string(),
-                Outcome::Survived(_) | Outcome::Open(_) | Outcome::NotCompiled(_) => continue,
-            };
-            let word = if matches!(outcome, Outcome::Killed(_)) { "killed" } else { "equivalent" };
-            one(shell, word, candidate, &told)?;
+            match outcome {
+                Outcome::Killed(_) => one(shell, "killed", candidate, outcome)?,
+                Outcome::Equivalent(_) => one(shell, "equivalent", candidate, outcome)?,
+                Outcome::Survived(_) | Outcome::Open(_) | Outcome::NotCompiled(_) => {}
+            }
         }
     }
     for (candidate, outcome) in judged {
         match outcome {
-            Outcome::Open(why) => one(shell, "unknown", candidate, why)?,
-            Outcome::NotCompiled(why) => one(shell, "refused", candidate, why)?,
+            Outcome::Open(_) => one(shell, "unknown", candidate, outcome)?,
+            Outcome::NotCompiled(_) => one(shell, "refused", candidate, outcome)?,
             Outcome::Killed(_) | Outcome::Survived(_) | Outcome::Equivalent(_) => {}
         }
     }
     for (candidate, unseen) in surprising(judged) {
-        let told = match unseen {
-            Unseen::States(1) => "one reachable state more or less".to_string(),
-            Unseen::States(more) => format!("{more} reachable states more or fewer"),
-            Unseen::Steps => "as many states, other steps".to_string(),
-            Unseen::Nowhere => "no reachable state differs".to_string(),
-            Unseen::WithinBounds => "no reachable state differs within the bounds of inputs".to_string(),
-            Unseen::Unmeasured => "not compared in every state".to_string(),
-        };
-        one(shell, "survived", candidate, &told)?;
+        one(shell, "survived", candidate, &Outcome::Survived(unseen))?;
     }
     Ok(())
 }
 
 /// A mutant: what became of it, where it is, what it changes.
-fn one(shell: &mut Shell, word: &str, candidate: &Candidate, told: &str) -> Result<(), Failure> {
+fn one(shell: &mut Shell, word: &str, candidate: &Candidate, outcome: &Outcome) -> Result<(), Failure> {
     let (place, name) = (candidate.place(), &candidate.file.name);
     let operator = candidate.mutant.operator.id();
-    writeln!(shell.out(), "{word:<9} {name}:{}:{} {operator}: {told}", place.line, place.column)?;
+    writeln!(shell.out(), "{word:<9} {name}:{}:{} {operator}: {}", place.line, place.column, outcome.remark())?;
     let Change { before, after, .. } = candidate.change();
     let indent = before.iter().chain(&after).filter(|line| !line.trim().is_empty());
     let indent = indent.map(|line| line.len() - line.trim_start().len()).min().unwrap_or(0);
@@ -109,18 +93,21 @@ fn summary(shell: &mut Shell, mutated: &Mutated, score: &Score, sampled: bool) -
         return Ok(());
     }
     let bench = &mutated.bench;
-    let (models, scenarios) = bench.judging();
+    let Judging { models, scenarios, couplings } = bench.judging();
+    let (models, scenarios) = (plural(models.len(), "model"), plural(scenarios.len(), "scenario"));
+    let (judges, refined) = match couplings {
+        None => (format!("{models} and {scenarios}"), String::new()),
+        Some(couplings) => (
+            format!("{models}, {scenarios} and {}", plural(couplings.len(), "refinement")),
+            format!(", {} by refinements", score.by_refine),
+        ),
+    };
     let drawn = bench.candidates.len();
     let of = if sampled && drawn < bench.mutants { format!("{drawn} of {}", bench.mutants) } else { drawn.to_string() };
     let word = if drawn == 1 && !of.contains(' ') { "mutant" } else { "mutants" };
-    writeln!(
-        shell.out(),
-        "{of} {word}, judged by {} and {}",
-        plural(models.len(), "model"),
-        plural(scenarios.len(), "scenario")
-    )?;
-    let mut parts =
-        vec![format!("{} killed ({} by properties, {} by scenarios)", score.killed(), score.by_verify, score.by_test)];
+    writeln!(shell.out(), "{of} {word}, judged by {judges}")?;
+    let by = format!("{} by properties, {} by scenarios{refined}", score.by_verify, score.by_test);
+    let mut parts = vec![format!("{} killed ({by})", score.killed())];
     parts.push(format!("{} survived", score.survived));
     let judged = mutated.outcomes.iter().flatten().count();
     for (count, what) in [
@@ -134,6 +121,9 @@ fn summary(shell: &mut Shell, mutated: &Mutated, score: &Score, sampled: bool) -
         }
     }
     writeln!(shell.out(), "{}", parts.join(", "))?;
+    if mutated.kept > 0 {
+        writeln!(shell.out(), "{} judged before, with the same texts", mutated.kept)?;
+    }
     if let (Some(percent), Some(of_all)) = (score.percent(), score.percent_of_all()) {
         let mut line = format!("score {percent:.1} %");
         if let Some(interval) = score.interval().filter(|_| sampled && drawn < bench.mutants) {

@@ -13,6 +13,7 @@ mod disk;
 mod idle;
 mod live;
 mod operators;
+mod proof_coverage;
 mod reduced;
 mod system;
 mod tell;
@@ -112,6 +113,9 @@ pub struct Arguments {
     /// Then replace each part of the properties that hold, and report parts without which they hold as well
     #[arg(long, conflicts_with_all = ["first", "checkpoint", "disk"])]
     vacuity: bool,
+    /// Then tell what the properties that hold depend on, and which functions and updates none of them depends on
+    #[arg(long)]
+    coverage: bool,
     /// Write counterexamples: a scenario (FILE.avalla), a trace (FILE.trace), or both for each violation into a folder
     #[arg(long, value_name = "PATH")]
     counterexample: Option<PathBuf>,
@@ -191,10 +195,12 @@ const OPTIONS: [&str; 3] = ["--invariant", "--ctl", "--ltl"];
 /// Runs the command.
 pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     let is_chart = arguments.model.extension().is_some_and(|ending| ending == "chart");
-    if is_chart && arguments.vacuity {
-        return Err(Failure::usage(
-            "--vacuity is about the properties of a model: verify the machines of a chart's system one by one",
-        ));
+    if let Some(option) = [("--vacuity", arguments.vacuity), ("--coverage", arguments.coverage)]
+        .into_iter()
+        .find_map(|(option, given)| (is_chart && given).then_some(option))
+    {
+        let about = "is about the properties of a model: verify the machines of a chart's system one by one";
+        return Err(Failure::usage(format!("{option} {about}")));
     }
     let rest = if is_chart { Some(without_proved(shell, arguments)?) } else { None };
     let arguments = rest.as_ref().unwrap_or(arguments);
@@ -340,6 +346,9 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
         .unreachable
         .retain(|span| system.is_none() && (span.file == root || (arguments.imports && users(span.file))));
     teller.report(shell, &report, &told)?;
+    if arguments.coverage {
+        proof_coverage::tell(shell, &teller, &report)?;
+    }
     if let Some(options) = again {
         idle::tell(shell, arguments, &teller, &report, (options, agents))?;
     }
