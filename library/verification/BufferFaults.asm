@@ -10,7 +10,8 @@ export *
 signature:
 	enum domain Fault = {
 		NONE | SLAVE_WITHOUT_LOCK | MASTER_WITHOUT_LOCK | SWAP_FORGOTTEN | SWAPS_BACK | RELEASE_FORGOTTEN |
-		RELEASED_TOO_SOON | LOSS_NOT_COUNTED | DROP_NOT_COUNTED | WATCHDOG_IGNORED | HUNG_UNWATCHED | WAITS_IN_VAIN}
+		RELEASED_TOO_SOON | LOSS_NOT_COUNTED | DROP_NOT_COUNTED | WATCHDOG_IGNORED | HUNG_UNWATCHED | WAITS_IN_VAIN |
+		NEW_TWICE | NEW_AFTER_SKIP | MARKED_FOR_ALL}
 
 	monitored seeded: Fault
 	controlled fault: Fault
@@ -176,6 +177,42 @@ definitions:
 			r_scheduler_execute[$c]
 		endif
 
+	// Whoever reads says that it is new.
+	rule r_newTwice($c in Scheduler) =
+		let ($b = here($c)) in
+			seq
+				r_scheduler_execute[$c]
+				if isDef($b) then
+					if isDef(sb_readingArray($b)) then
+						sb_fresh($b) := true
+					endif
+				endif
+			endseq
+		endlet
+
+	// A reader that goes on without its reading leaves the mark as it was.
+	rule r_newAfterSkip($c in Scheduler) =
+		if isManaging($c) and not asMaster($c) and not asWriter($c) and givesUp($c) then
+			par
+				r_giveUpSb[$c]
+				r_leavePattern[$c]
+			endpar
+		else
+			r_scheduler_execute[$c]
+		endif
+
+	// Of a broadcast, one reader marks the datum as read for the other ones, too.
+	rule r_markedForAll($c in Scheduler) =
+		let ($wasManaging = isManaging($c), $b = here($c)) in
+			seq
+				r_scheduler_execute[$c]
+				if $wasManaging and not asWriter($c) and not isManaging($c) then
+					forall $o in SwingingBuffer with $o != $b do
+						sb_receivedSequence($o) := sb_newestSequence($o)
+				endif
+			endseq
+		endlet
+
 	rule r_faulty($c in Scheduler) =
 		switch fault
 			case NONE: r_scheduler_execute[$c]
@@ -190,4 +227,7 @@ definitions:
 			case WATCHDOG_IGNORED: r_watchdogIgnored[$c]
 			case HUNG_UNWATCHED: r_hungUnwatched[$c]
 			case WAITS_IN_VAIN: r_waitsInVain[$c]
+			case NEW_TWICE: r_newTwice[$c]
+			case NEW_AFTER_SKIP: r_newAfterSkip[$c]
+			case MARKED_FOR_ALL: r_markedForAll[$c]
 		endswitch
