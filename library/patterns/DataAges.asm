@@ -144,20 +144,26 @@ definitions:
 				endlet
 			endif
 
+	rule r_pass($h in Hop) =
+		par
+			hop_slot($h, slotWritten($h)) := if isDef(hop_decided($h)) then hop_taken($h) else origin($h) endif
+			hop_taken($h) := undef
+		endpar
+
+	// Messages and values are written when a phase ends. What begins in the same step, or is read in it, comes after that, and the
+	// reader of the channel does not see it yet.
 	rule r_begin =
 		par
 			forall $c in Scheduler with hasBegun($c) do
 				cycleStart($c) := clock
 			forall $h in Hop with numberRead($h) != hop_read($h) do
 				hop_received($h) := hop_slot($h, slotRead($h))
+			forall $g in Hop with isUndef(hop_buffer($g)) and numberWritten($g) != hop_written($g) do r_pass[$g]
 		endpar
 
-	rule r_pass =
-		forall $h in Hop with numberWritten($h) != hop_written($h) do
-			par
-				hop_slot($h, slotWritten($h)) := if isDef(hop_decided($h)) then hop_taken($h) else origin($h) endif
-				hop_taken($h) := undef
-			endpar
+	// A buffer is written when a phase begins, which may be the first one of a cycle.
+	rule r_passBuffers =
+		forall $h in Hop with isDef(hop_buffer($h)) and numberWritten($h) != hop_written($h) do r_pass[$h]
 
 	rule r_rememberAges =
 		par
@@ -176,6 +182,6 @@ definitions:
 			r_take[]
 			r_arrive[]
 			r_begin[]
-			r_pass[]
+			r_passBuffers[]
 			r_rememberAges[]
 		endseq
