@@ -155,7 +155,7 @@ definitions:
 	invariant inv_fresh over sb_fresh: reads implies sb_fresh(buffer) = mustBeFresh
 	invariant inv_counted over task_totalWait, task_skipped, task_cycles, task_deadlinesMissed: isCountRight
 	invariant inv_waited over task_timeInWait: task_timeInWait(actor_task) = waited
-	invariant inv_period over task_periodStart: isSynchronous implies task_elapsedTimeOfPeriod(actor_task) = age
+	invariant inv_period over task_periodStart: task_elapsedTimeOfPeriod(actor_task) = age
 	invariant inv_sound over sem_state, indexRead: patternsSound
 
 	// what is to be noticed comes: a skip, whatever the patience; a wait to the last tick, and then the lock; a late cycle

@@ -95,7 +95,7 @@ definitions:
 	invariant inv_effects over mq_sent, mq_taken, sv_sequence, task_cycles: isRight
 	invariant inv_fresh over sv_fresh: sv_fresh(level) = mustBeFresh
 	invariant inv_waited over task_timeInWait: task_timeInWait(task) = waited
-	invariant inv_period over task_periodStart: isSynchronous implies task_elapsedTimeOfPeriod(task) = age
+	invariant inv_period over task_periodStart: task_elapsedTimeOfPeriod(task) = age
 	invariant inv_deadlines over task_deadlinesMissed: task_deadlinesMissed(task) = 0
 	invariant inv_sound over mq_sent: patternsSound
 
