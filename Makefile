@@ -6,6 +6,7 @@ GROUNDSTATE := target/release/groundstate
 # With its assertions: tests run it, which build it anyway, and so does the demo where they did.
 TESTED := target/debug/groundstate
 MODELS := library/patterns library/runtime examples
+REFINEMENTS := library/refinement examples/visual_servoing/refinement
 # Clippy's driver is the compiler with its lints, so that tests and lints are one build.
 LINTED := $(if $(shell command -v clippy-driver),RUSTC_WORKSPACE_WRAPPER=clippy-driver CLIPPY_ARGS=-D__CLIPPY_HACKERY__warnings)
 OLDEST := $(shell sed -n 's/^rust-version = "\(.*\)"/\1/p' Cargo.toml)
@@ -100,6 +101,7 @@ scenarios: $(TESTED)
 	$(TESTED) check $(MODELS) library/verification
 	$(TESTED) test $(MODELS)
 	sh library/verification/verify.sh $(TESTED) expected.txt
+	sh library/refinement/refine.sh $(TESTED) examples/visual_servoing/refinement/expected.txt
 
 # The toolchain is not installed here: it would be one more compiler for one check.
 msrv: ## the workspace, checked by the oldest Rust that Cargo.toml promises, if rustup has it
@@ -109,7 +111,7 @@ msrv: ## the workspace, checked by the oldest Rust that Cargo.toml promises, if 
 
 verify: $(GROUNDSTATE) ## the pattern library's properties in every state, its seeded faults found, its refinements, the reference systems counted: minutes, 4 GB
 	sh library/verification/verify.sh $(GROUNDSTATE) expected.txt expected-long.txt
-	sh library/refinement/refine.sh $(GROUNDSTATE) expected.txt expected-long.txt
+	sh library/refinement/refine.sh $(GROUNDSTATE) $(REFINEMENTS:%=%/expected.txt) $(REFINEMENTS:%=%/expected-long.txt)
 	sh library/verification/mutants.sh $(GROUNDSTATE) mutants.txt
 	sh examples/sorting_cell/check.sh $(GROUNDSTATE) whole
 
