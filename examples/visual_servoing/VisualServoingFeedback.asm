@@ -6,6 +6,8 @@ import ../../library/std/StandardLibrary
 import ../../library/patterns/ControlTask
 import VisionTasks
 
+export *
+
 signature:
 	static robot_to_vs: SwingingBuffer
 	static robot_to_vs_lock: Semaphore
