@@ -112,8 +112,9 @@ impl Encoder {
     /// The value of a monitored location in this step.
     fn input_at(&mut self, function: FunctionId, arguments: Vec<Value>, span: Span) -> Result {
         let key = (function, arguments);
-        if let Some(known) = self.given_inputs.get(&key) {
-            return Ok(known.clone());
+        if let Some((known, fails)) = self.given_inputs.get(&key).cloned() {
+            self.fault(FaultClass::Undefined, fails);
+            return Ok(known);
         }
         let declared = self.program.function(function).clone();
         let values = match self.bounds.get(&function) {
@@ -139,7 +140,7 @@ impl Encoder {
                 Symbol::Open(Open { shape, value, defined: Terms::TRUE })
             }
         };
-        self.given_inputs.insert(key, symbol.clone());
+        self.given_inputs.insert(key, (symbol.clone(), Terms::FALSE));
         Ok(symbol)
     }
 
@@ -370,6 +371,41 @@ impl Encoder {
                 return self.outside(format!("a function with values in {name}"), span);
             }
         })
+    }
+
+    /// A symbol as the value of a place, and whether it is defined.
+    ///
+    /// # Errors
+    /// It is of another kind than the place's values.
+    pub fn lowered(&mut self, symbol: &Symbol, place: &Place) -> Result<(Node, Node)> {
+        match symbol {
+            Symbol::Known(Value::Undef) => Ok((place.value, Terms::FALSE)),
+            Symbol::Known(value) if Shape::of(value) == place.shape => {
+                Ok((constant(&mut self.terms, &mut self.codes, value), Terms::TRUE))
+            }
+            Symbol::Open(Open { shape, value, defined }) if *shape == place.shape => Ok((*value, *defined)),
+            _ => {
+                let span = self.program.function(place.location.function).span;
+                self.outside("a value of another kind than that of its function", span)
+            }
+        }
+    }
+
+    /// The same of a value that a place has in an initial state; of undef any value of the place's domain.
+    ///
+    /// # Errors
+    /// See [`Encoder::lowered`].
+    pub fn begun(&mut self, value: Value, place: &Place) -> Result<(Node, Node)> {
+        let least = match (&value, place.shape.kind()) {
+            (Value::Undef, Kind::Boolean) => Terms::FALSE,
+            (Value::Undef, Kind::Real) => self.terms.real(0.0),
+            (Value::Undef, Kind::Integer) => {
+                let low = self.terms.bounds(place.value).0.unwrap_or(0);
+                self.terms.integer(low)
+            }
+            _ => return self.lowered(&Symbol::Known(value), place),
+        };
+        Ok((least, Terms::FALSE))
     }
 
     /// The bounds of a domain's values; also the values themselves if bounds do not determine them.

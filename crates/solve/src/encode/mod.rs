@@ -113,7 +113,8 @@ pub struct Encoder {
     agent: Symbol,
     /// The inputs read so far.
     pub inputs: Vec<Input>,
-    given_inputs: FxHashMap<(FunctionId, Vec<Value>), Symbol>,
+    /// The values of inputs that were read or given, each with the condition under which to read it is a fault.
+    given_inputs: FxHashMap<(FunctionId, Vec<Value>), (Symbol, Node)>,
     /// The choices made so far.
     pub choices: Vec<Choice>,
     /// Facts about inputs.
@@ -264,6 +265,26 @@ impl Encoder {
             Symbol::Open(Open { shape: Shape::Boolean, value, defined }) => self.terms.and([value, defined]),
             _ => Terms::FALSE,
         })
+    }
+
+    /// The value of a term with these arguments in the state before the step, and the condition that it can be evaluated.
+    /// It is encoded separately, so its faults are not the step's.
+    ///
+    /// # Errors
+    /// See [`Encoder::step`].
+    pub fn value(&mut self, expression: &Expression, arguments: Vec<Symbol>) -> Result<(Symbol, Node)> {
+        let former = self.course();
+        (self.path, self.live, self.faults) = (Terms::TRUE, Terms::TRUE, [Terms::FALSE; 3]);
+        let span = self.program.term_span(expression.body);
+        let value = self.in_frame(arguments, expression.frame, span, |this| this.evaluate(expression.body));
+        let live = self.live;
+        self.resume(former);
+        Ok((value?, live))
+    }
+
+    /// Gives an input its value, and the condition under which reading it is a fault.
+    pub fn give(&mut self, function: FunctionId, arguments: Vec<Value>, value: Symbol, fails: Node) {
+        self.given_inputs.insert((function, arguments), (value, fails));
     }
 
     /// The progress so far.
@@ -426,7 +447,10 @@ impl Encoder {
     }
 
     /// Equality, which is total.
-    fn equal(&mut self, a: &Symbol, b: &Symbol) -> Result<Node> {
+    ///
+    /// # Errors
+    /// It is one of collections.
+    pub fn equal(&mut self, a: &Symbol, b: &Symbol) -> Result<Node> {
         if let (Symbol::Known(a), Symbol::Known(b)) = (a, b) {
             return Ok(self.terms.boolean(a == b));
         }

@@ -293,7 +293,7 @@ impl Encoder {
     }
 
     /// The conditions that a truth value is true and that it is false.
-    pub(super) fn truths(&mut self, symbol: &Symbol) -> (Node, Node) {
+    pub fn truths(&mut self, symbol: &Symbol) -> (Node, Node) {
         match symbol {
             Symbol::Known(Value::Boolean(truth)) => (self.terms.boolean(*truth), self.terms.boolean(!truth)),
             Symbol::Open(Open { shape: Shape::Boolean, value, defined }) => {

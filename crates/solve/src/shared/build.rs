@@ -37,6 +37,11 @@ impl Terms {
         self.put(op, kind, bounds)
     }
 
+    /// Gives a variable another name.
+    pub fn rename(&mut self, id: VariableId, name: impl Into<String>) {
+        self.variables[id.0 as usize].name = name.into();
+    }
+
     /// An existing variable.
     pub fn known(&mut self, id: VariableId) -> Node {
         self.apply(id, Vec::new())

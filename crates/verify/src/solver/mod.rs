@@ -6,7 +6,6 @@
 
 mod bounded;
 pub(crate) mod engine;
-mod given;
 mod horn;
 mod induction;
 pub(crate) mod method;

@@ -6,7 +6,7 @@
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-use explore::{Explorer, Interner, Settings, Told, Trouble};
+use explore::{Explorer, Given, Interner, Settings, Told, Trouble};
 use machine::{Location, Machine, Value};
 use program::{FunctionId, Program};
 use rustc_hash::FxHashMap;
@@ -16,10 +16,9 @@ use syntax::Span;
 
 use crate::explorers::widened;
 use crate::plan::Plan;
-use crate::solver::given::Given;
 use crate::target::Target;
 use solve::encode::{Choice, Encoder, Input, InputKind, Place};
-use solve::symbol::{Codes, Open, Shape, Symbol, constant};
+use solve::symbol::{Codes, constant};
 
 /// LIMIT: the most initial states.
 const STARTS: usize = 256;
@@ -193,7 +192,7 @@ impl Relation {
             }
             let (symbol, changed) = encoder.next(index)?;
             moves.push(changed);
-            next.push(lowered(encoder, &symbol, &place)?);
+            next.push(encoder.lowered(&symbol, &place)?);
         }
         let changed = encoder.terms.or(moves);
         let moves = encoder.terms.and([goes, changed]);
@@ -318,22 +317,6 @@ fn starts(program: &Arc<Program>, plan: &Plan) -> Result<Vec<Start>, Unrelated> 
     Ok(starts)
 }
 
-/// A symbol as the value of a place, and whether it is defined.
-fn lowered(encoder: &mut Encoder, symbol: &Symbol, place: &Place) -> Result<(Node, Node), Outside> {
-    let outside = |encoder: &Encoder| {
-        let span = encoder.program.function(place.location.function).span;
-        Outside { what: "a value of another kind than that of its function".to_string(), span }
-    };
-    match symbol {
-        Symbol::Known(Value::Undef) => Ok((place.value, Terms::FALSE)),
-        Symbol::Known(value) if Shape::of(value) == place.shape => {
-            Ok((constant(&mut encoder.terms, &mut encoder.codes, value), Terms::TRUE))
-        }
-        Symbol::Open(Open { shape, value, defined }) if *shape == place.shape => Ok((*value, *defined)),
-        _ => Err(outside(encoder)),
-    }
-}
-
 type Values = Vec<(Node, Node)>;
 
 /// For each place its value in an initial state; and the variable that selects the initial state.
@@ -359,11 +342,7 @@ fn initial(encoder: &mut Encoder, starts: &[Start]) -> Result<(Values, Option<No
             if !encoder.machine().contains(codomain, &value) {
                 return Err(Outside { what: "an initial value outside of its domain".to_string(), span });
             }
-            let one = match value {
-                // Any value of its domain will do.
-                Value::Undef => (least(encoder, &place), Terms::FALSE),
-                value => lowered(encoder, &Symbol::Known(value), &place)?,
-            };
+            let one = encoder.begun(value, &place)?;
             all = Some(match (all, node) {
                 (Some(former), Some(node)) => {
                     let number = encoder.terms.integer(number as i128);
@@ -399,17 +378,6 @@ fn first(encoder: &mut Encoder, starts: &[Start], start: Option<Node>) -> Node {
         }
     }
     encoder.terms.and(all)
-}
-
-fn least(encoder: &mut Encoder, place: &Place) -> Node {
-    match place.shape.kind() {
-        Kind::Boolean => Terms::FALSE,
-        Kind::Real => encoder.terms.real(0.0),
-        Kind::Integer => {
-            let low = encoder.terms.bounds(place.value).0.unwrap_or(0);
-            encoder.terms.integer(low)
-        }
-    }
 }
 
 /// Whether a condition holds for some inputs; `None` if these cannot be enumerated.

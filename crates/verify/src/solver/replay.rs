@@ -5,7 +5,7 @@
 
 use std::sync::Arc;
 
-use explore::Told;
+use explore::{Given, Told};
 use machine::{EngineChoice, FaultClass, Location, Machine, Value};
 use program::Program;
 use rustc_hash::FxHashMap;
@@ -13,7 +13,6 @@ use solve::session::Constant;
 use solve::shared::{VariableId, value_at};
 
 use crate::plan::Plan;
-use crate::solver::given::Given;
 use crate::solver::relation::Relation;
 use crate::solver::unrolling::SolverRun;
 use crate::target::Target;

@@ -1,17 +1,25 @@
 //! The recorded inputs and choices of a step, as the machine's environment.
+//!
+//! In: what was told of a step. Out: an environment that gives it again, so that the machine repeats the step. What was not told is an
+//! error, and so is a choice among other candidates.
 
 use std::collections::{BTreeMap, VecDeque};
 
-use explore::{ChoiceTaken, Told};
 use machine::{Choice, Draw, Environment, Location, LocationRef, TimeUnit, Value};
 use program::{DomainId, Program};
 
+use crate::{ChoiceTaken, Told};
+
 /// An environment that gives recorded inputs and choices.
 #[derive(Debug, Default)]
-pub(crate) struct Given {
+pub struct Given {
+    /// By location.
     pub inputs: BTreeMap<Location, Value>,
+    /// What is still to be chosen, the next one first.
     pub choices: VecDeque<Vec<Value>>,
+    /// What is still to be drawn.
     pub numbers: VecDeque<Value>,
+    /// The choices that were made.
     pub taken: Vec<ChoiceTaken>,
 }
 
