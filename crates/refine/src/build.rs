@@ -7,7 +7,7 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use machine::{Limits, Machine};
-use program::{DomainKind, Expression, FunctionId, FunctionKind, Program, Slot, Term, TermList};
+use program::{DomainId, DomainKind, Expression, FunctionId, FunctionKind, Program, Slot, Term, TermList};
 use syntax::ast::{AstNode, TermFile};
 use syntax::{Diagnostic, FileId, Severity, SourceFile, Sources, Span};
 
@@ -75,6 +75,7 @@ impl Builder {
             watched: Vec::new(),
             readers: Default::default(),
             waiting: false,
+            variant: None,
             same: Vec::new(),
             free: Vec::new(),
             inputs: Vec::new(),
@@ -115,6 +116,9 @@ impl Builder {
         {
             self.concrete_only(&formula, part, "a segment ends");
             self.coupling.segment = Some(formula);
+        }
+        if let Some(part) = &written.variant {
+            self.variant(part, written.waiting);
         }
         self.inputs(written);
         if !self.faults.is_empty() {
@@ -356,6 +360,22 @@ impl Builder {
     fn condition(&mut self, part: &Part) -> Option<Expression> {
         let formula = self.term(part, None)?;
         self.over_states(&formula, part).then_some(formula)
+    }
+
+    /// `variant TERM;`
+    fn variant(&mut self, part: &Part, waiting: bool) {
+        let place = self.place(part);
+        if waiting {
+            let message = "`allow waiting` takes for granted what a variant proves: one of them is enough";
+            return self.fault(bad_coupling(place, message));
+        }
+        let program = &self.coupling.joint.program;
+        let integer = program.domains.iter().position(|domain| domain.kind == DomainKind::Basic(model::Basic::Integer));
+        let Some(integer) = integer else { return };
+        let Some(formula) = self.term(part, Some(DomainId(integer as u32))) else { return };
+        if self.over_states(&formula, part) {
+            self.coupling.variant = Some((part.text.clone(), formula));
+        }
     }
 
     /// Whether a term reads no input of either machine; it can be evaluated then.

@@ -54,6 +54,8 @@ pub struct Coupling {
     pub(crate) readers: [FxHashMap<FunctionId, Expression>; 2],
     /// The concrete machine may go on for ever without a step of the abstract one.
     pub waiting: bool,
+    /// What decreases with each diagram without an abstract step, as the file has it.
+    pub(crate) variant: Option<(String, Expression)>,
     /// The functions that have equal values by default or by `same`.
     pub same: Vec<String>,
     /// Inputs that are free, and inputs that have the same value in both.
@@ -82,6 +84,11 @@ impl Coupling {
             Conjunct::Same { name, .. } => format!("abstract.{name} = concrete.{name}"),
             Conjunct::Term { text, .. } => text.split_whitespace().collect::<Vec<_>>().join(" "),
         }
+    }
+
+    /// The variant as a user would write it.
+    pub fn variant(&self) -> Option<String> {
+        self.variant.as_ref().map(|(text, _)| text.split_whitespace().collect::<Vec<_>>().join(" "))
     }
 
     /// How many conjuncts there are.

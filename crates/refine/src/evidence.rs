@@ -302,7 +302,17 @@ fn unmatched(product: &mut Product<'_>, end: &Answers) -> Ended {
             let (values, trouble) = product.judge.why(&mut product.sides, index, [state, end.to]);
             Part { text: product.judge.coupling.conjunct(index), values, trouble }
         });
-        tried.push(Tried { steps, parts: parts.collect() });
+        let mut parts: Vec<Part> = parts.collect();
+        if let (0, Some(from), Some(text)) = (m, end.from, product.judge.coupling.variant()) {
+            let (before, after) = ([from, end.begun], [from, end.to]);
+            if !product.judge.descends(&mut product.sides, before, after) {
+                let values = product.judge.descent(&mut product.sides, before, after);
+                let values = ["before", "after"].map(str::to_string).into_iter().zip(values).collect();
+                let trouble = Some("is negative or does not decrease".to_string());
+                parts.push(Part { text: format!("variant {text}"), values, trouble });
+            }
+        }
+        tried.push(Tried { steps, parts });
     }
     let program = &product.judge.coupling.joint.program;
     for (location, values) in end.reads.iter() {
@@ -320,7 +330,15 @@ fn unmatched(product: &mut Product<'_>, end: &Answers) -> Ended {
 /// Why no initial states correspond.
 pub(crate) fn no_initial_pair(product: &mut Product<'_>) -> Refutation {
     let (_, state, start) = product.begun[0].clone();
-    let end = Answers { from: None, to: state, reads: Default::default(), n: 0, answers: Vec::new(), unclear: None };
+    let end = Answers {
+        from: None,
+        begun: state,
+        to: state,
+        reads: Default::default(),
+        n: 0,
+        answers: Vec::new(),
+        unclear: None,
+    };
     let ended = unmatched(product, &end);
     let mut telling = Telling { product, runs: Default::default(), segments: Vec::new() };
     telling.begin(CONCRETE, state, start);

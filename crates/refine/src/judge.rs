@@ -127,6 +127,30 @@ impl<'c> Judge<'c> {
         (value.map_err(|fault| fault.show(&joint.program).to_string()), both.reads)
     }
 
+    /// The variant of two states, if there is one and it has a value there.
+    fn variant(&mut self, sides: &mut [Side; 2], states: [StateId; 2]) -> Option<i64> {
+        let (_, formula) = self.coupling.variant.as_ref()?;
+        match self.evaluate(sides, formula, states).0 {
+            Ok(Value::Integer(number)) => Some(number),
+            _ => None,
+        }
+    }
+
+    /// Whether a diagram without an abstract step may lead from one pair of states to another: the variant, if the coupling has one,
+    /// is not negative and decreases.
+    pub fn descends(&mut self, sides: &mut [Side; 2], from: [StateId; 2], to: [StateId; 2]) -> bool {
+        if self.coupling.variant.is_none() {
+            return true;
+        }
+        let (before, after) = (self.variant(sides, from), self.variant(sides, to));
+        before.zip(after).is_some_and(|(before, after)| before >= 0 && after < before)
+    }
+
+    /// What the variant is before and after such a diagram.
+    pub fn descent(&mut self, sides: &mut [Side; 2], from: [StateId; 2], to: [StateId; 2]) -> [String; 2] {
+        [from, to].map(|states| self.variant(sides, states).map_or("undef".to_string(), |number| number.to_string()))
+    }
+
     /// Whether a segment ends in a concrete state.
     pub fn ends(&mut self, sides: &mut [Side; 2], state: StateId) -> bool {
         let Some(formula) = &self.coupling.segment else { return true };

@@ -83,7 +83,7 @@ fn one(file: FileId, statement: &Statement, out: &mut String) -> Result<(), Box<
     out.push_str(&statement.word.text);
     out.push(' ');
     match statement.word.text.as_str() {
-        "couple" | "segment" => term(file, &body.text, body.span.start as usize, out)?,
+        "couple" | "segment" | "variant" => term(file, &body.text, body.span.start as usize, out)?,
         "input" => {
             let (input, value) = body.text.split_once('=').unwrap_or((&body.text, ""));
             let start = body.span.end as usize - value.trim_start().len();
@@ -183,6 +183,7 @@ mod tests {
             "couple abstract.n=concrete.f( 1,2 )and abstract_x;",
             "couple abstract.n = concrete.f(1, 2) and abstract_x;\n",
         );
+        check("variant   2*concrete.n-1;", "variant 2 * concrete.n - 1;\n");
         check("couple abstract.n=concrete.m\n        +1;", "couple abstract.n = concrete.m + 1;\n");
         check(
             "couple (forall $x in N with abstract.f($x)=concrete.f($x));",

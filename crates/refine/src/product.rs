@@ -71,7 +71,8 @@ pub(crate) enum Node {
 pub(crate) struct Answers {
     /// The abstract state that the diagram began in; none at the beginning of the runs.
     pub from: Option<StateId>,
-    /// The concrete state that it ends in.
+    /// The concrete states that it begins and ends in.
+    pub begun: StateId,
     pub to: StateId,
     pub reads: Reads,
     pub n: u32,
@@ -110,6 +111,8 @@ pub(crate) struct Product<'c> {
     pub trees: Vec<Option<NodeId>>,
     pub nodes: Vec<Node>,
     pub root: NodeId,
+    /// The concrete state that the diagrams looked at begin in.
+    at: StateId,
     /// The abstract machine's initial states.
     pub initial: Vec<(Label, StateId, Start)>,
     /// The concrete machine's initial states.
@@ -137,6 +140,7 @@ impl<'c> Product<'c> {
             trees: Vec::new(),
             nodes: Vec::new(),
             root: 0,
+            at: 0,
             initial,
             begun,
         };
@@ -169,6 +173,7 @@ impl<'c> Product<'c> {
     /// Looks at a pair.
     pub fn explore(&mut self, pair: PairId) -> Result<(), Stopped> {
         let (one, other) = self.pairs[pair as usize];
+        self.at = other;
         let tree = self.go_on(one, other, &Reads::default(), 0, &mut Memo::default())?;
         self.trees[pair as usize] = Some(tree);
         Ok(())
@@ -271,8 +276,13 @@ impl<'c> Product<'c> {
     ) -> Result<NodeId, Stopped> {
         let allowed = |m: u32, judge: &Judge<'_>| from.is_none() || judge.coupling.diagrams.allows(m, n);
         let mut matching = Vec::new();
+        let begun = if from.is_some() { self.at } else { to };
         for run in &runs.runs {
-            if allowed(run.m, &self.judge) && self.judge.coupled(&mut self.sides, [run.to, to]) {
+            let goes_down = |product: &mut Product<'_>| match from {
+                Some(from) if run.m == 0 => product.judge.descends(&mut product.sides, [from, begun], [from, to]),
+                _ => true,
+            };
+            if allowed(run.m, &self.judge) && self.judge.coupled(&mut self.sides, [run.to, to]) && goes_down(self) {
                 matching.push(run.clone());
             }
         }
@@ -313,7 +323,7 @@ impl<'c> Product<'c> {
             let mut reads = reads.as_ref().clone();
             reads.extend(valuation.iter().map(|(location, value)| (*location, BTreeSet::from([*value]))));
             let reads = Rc::new(reads);
-            let node = Answers { from, to, reads: Rc::clone(&reads), n, answers, unclear: runs.unclear };
+            let node = Answers { from, begun, to, reads: Rc::clone(&reads), n, answers, unclear: runs.unclear };
             let mut node = self.node(Node::Answers(Box::new(node)));
             if let (Some(from), Some(memo)) = (from, memo.as_deref_mut()) {
                 let further = self.go_on(from, to, &reads, n, memo)?;

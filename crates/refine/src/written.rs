@@ -47,18 +47,20 @@ pub struct Written {
     pub free: Vec<Part>,
     /// The concrete machine may go on for ever without a step of the abstract one.
     pub waiting: bool,
+    /// What decreases while the abstract machine makes no step.
+    pub variant: Option<Part>,
 }
 
 /// The words that statements begin with.
-pub const WORDS: [&str; 9] =
-    ["abstract", "allow", "concrete", "couple", "diagrams", "free", "input", "same", "segment"];
+pub const WORDS: [&str; 10] =
+    ["abstract", "allow", "concrete", "couple", "diagrams", "free", "input", "same", "segment", "variant"];
 
 impl Written {
     /// A file that says nothing: the default coupling.
     pub fn nothing(file: FileId) -> Written {
         let (models, same, couples) = ([None, None], Vec::new(), Vec::new());
-        let (segment, diagrams, inputs, free) = (None, None, Vec::new(), Vec::new());
-        Written { file, models, same, couples, segment, diagrams, inputs, free, waiting: false }
+        let (segment, diagrams, inputs, free, variant) = (None, None, Vec::new(), Vec::new(), None);
+        Written { file, models, same, couples, segment, diagrams, inputs, free, waiting: false, variant }
     }
 }
 
@@ -230,6 +232,10 @@ impl<'t> Reader<'t> {
                 again(written.segment.is_some())?;
                 written.segment = Some(body);
             }
+            "variant" => {
+                again(written.variant.is_some())?;
+                written.variant = Some(body);
+            }
             "same" => {
                 for (from, to) in split(&body.text, ',') {
                     let name = self.part(start + from, start + to);
@@ -338,6 +344,7 @@ mod tests {
         check("input abstract.f;", 6, "an input and its value are expected: input abstract.f = concrete.g;");
         check("abstract A.asm;", 9, "the path of a model is expected: abstract \"Model.asm\";");
         check("segment a; segment b;", 11, "`segment` is said twice");
+        check("variant 1; variant 2;", 11, "`variant` is said twice");
         check("diagrams 1:0;", 9, "a diagram has at least one step of the concrete machine: `m:n` with n from 1");
         check("allow faults;", 6, "only waiting can be allowed: allow waiting;");
         check("/* a", 0, "this comment does not end");

@@ -51,10 +51,10 @@ pub(super) fn completion<F: Files>(
     let items = match (first, side) {
         ("free" | "input", Some(ABSTRACT)) if !mapped => of(&models[ABSTRACT], |kind| kind == FunctionKind::Monitored),
         ("free" | "input", None) if !mapped => sides(&[ABSTRACT]),
-        ("couple", Some(side)) => of(&models[side], is_state),
+        ("couple" | "variant", Some(side)) => of(&models[side], is_state),
         ("segment", Some(CONCRETE)) => of(&models[CONCRETE], is_state),
         ("input", Some(CONCRETE)) if mapped => of(&models[CONCRETE], |_| true),
-        ("couple", None) => [sides(&[ABSTRACT, CONCRETE]), terms(&models)].concat(),
+        ("couple" | "variant", None) => [sides(&[ABSTRACT, CONCRETE]), terms(&models)].concat(),
         ("segment" | "input", None) => [sides(&[CONCRETE]), terms(&models)].concat(),
         ("same", None) => in_both(&models),
         ("allow", None) => vec![Item::new("waiting", ItemKind::Keyword, "", 0)],
@@ -163,6 +163,7 @@ fn statements() -> Vec<Item> {
         ("input", "the value of an input of the abstract machine", "input abstract.${1} = ${0};"),
         ("same", "functions that are equal in both machines", "same ${0};"),
         ("segment", "where a segment ends", "segment ${0};"),
+        ("variant", "what decreases while the abstract machine stands still", "variant ${0};"),
     ];
     debug_assert!(forms.iter().map(|(word, ..)| *word).eq(WORDS));
     forms.into_iter().map(|(word, detail, insert)| Item::snippet(word, detail, insert, 0)).collect()
