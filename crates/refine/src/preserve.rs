@@ -1,6 +1,6 @@
 //! Which properties of the abstract machine hold of the concrete one because it refines it, and in which form.
 //!
-//! In: a product whose game is won. Out: for each invariant and temporal property of the abstract machine a [`Preserved`]: what it says
+//! In: a product whose game is won, or what else is proved of runs. Out: for each invariant and temporal property of the abstract machine a [`Preserved`]: what it says
 //! of the concrete machine, or why it does not come along. Theory: a concrete run has the abstract run's states at the ends of its
 //! diagrams, each again and again for a while. So it keeps what holds of all runs and does not count steps (Lamport 1983 of LTL; Browne,
 //! Clarke, Grumberg 1988 of CTL*). INVARIANT: that an abstract property holds is assumed here, and nowhere else looked at.
@@ -8,6 +8,7 @@
 use program::{Builtin, Program, Property, PropertyKind, Quantifier, TemporalOperator, Term, TermId};
 
 use crate::ABSTRACT;
+use crate::coupling::Coupling;
 use crate::product::Product;
 use crate::transfer::{Ends, Transfer};
 use crate::translate::Translation;
@@ -29,20 +30,24 @@ pub struct Preserved {
     pub form: Result<String, String>,
 }
 
-/// The properties of the abstract machine.
+/// The properties of the abstract machine, by a game that is won.
 pub(crate) fn preserved(product: &mut Product<'_>) -> Vec<Preserved> {
     let coupling = product.judge.coupling;
+    let is_asked = coupling.programs[ABSTRACT].properties.iter().any(is_said);
+    if is_asked { preserved_by(coupling, &Transfer::of(product)) } else { Vec::new() }
+}
+
+fn is_said(property: &Property) -> bool {
+    matches!(property.kind, PropertyKind::Invariant | PropertyKind::Ctl | PropertyKind::Ltl)
+}
+
+/// The properties of the abstract machine, by what a proof says of runs.
+pub(crate) fn preserved_by(coupling: &Coupling, transfer: &Transfer) -> Vec<Preserved> {
     let program = &*coupling.programs[ABSTRACT];
-    let is_said =
-        |property: &Property| matches!(property.kind, PropertyKind::Invariant | PropertyKind::Ctl | PropertyKind::Ltl);
-    if !program.properties.iter().any(is_said) {
-        return Vec::new();
-    }
-    let transfer = Transfer::of(product);
     let mut translation = Translation::new(coupling, transfer.ends == Ends::Segments);
     let properties = program.properties.iter().enumerate().filter(|(_, property)| is_said(property));
     let told = properties.map(|(index, property)| {
-        let allowed = admits(program, property, &transfer);
+        let allowed = admits(program, property, transfer);
         let form = allowed.and_then(|()| translation.of(property));
         Preserved { property: index, kind: property.kind, name: property.name.clone(), form }
     });

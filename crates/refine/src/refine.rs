@@ -79,12 +79,23 @@ impl Whys {
 
 type Attempt = Result<Report, (usize, Widening)>;
 
-fn attempt(
-    coupling: &Coupling,
+/// The initial pairs of both machines, of which nothing has been looked at.
+pub(crate) fn product<'c>(coupling: &'c Coupling, options: &Options) -> Result<Product<'c>, Trouble> {
+    let mut widenings: [Widening; 2] = Default::default();
+    loop {
+        match begun(coupling, options, &widenings)? {
+            Ok(product) => return Ok(product),
+            Err((side, widening)) => widenings[side].merge(&widening),
+        }
+    }
+}
+
+/// The same, or the side whose states need more room.
+fn begun<'c>(
+    coupling: &'c Coupling,
     options: &Options,
     widenings: &[Widening; 2],
-    watch: &mut dyn FnMut(&Progress) -> bool,
-) -> Result<Attempt, Trouble> {
+) -> Result<Result<Product<'c>, (usize, Widening)>, Trouble> {
     let mut sides = Vec::new();
     for side in [ABSTRACT, CONCRETE] {
         let (program, readers) = (&coupling.programs[side], coupling.readers[side].clone());
@@ -101,7 +112,19 @@ fn attempt(
     }
     let Ok(sides) = <[Side; 2]>::try_from(sides) else { unreachable!("there are two sides") };
     let judge = Judge::new(coupling, &options.extents[CONCRETE].limits);
-    let mut product = Product::new(sides, judge);
+    Ok(Ok(Product::new(sides, judge)))
+}
+
+fn attempt(
+    coupling: &Coupling,
+    options: &Options,
+    widenings: &[Widening; 2],
+    watch: &mut dyn FnMut(&Progress) -> bool,
+) -> Result<Attempt, Trouble> {
+    let mut product = match begun(coupling, options, widenings)? {
+        Ok(product) => product,
+        Err(narrow) => return Ok(Err(narrow)),
+    };
     let progress_of = |product: &Product<'_>, queue: usize| Progress {
         pairs: product.pairs.len() as u64,
         queue: queue as u64,
@@ -185,7 +208,7 @@ fn attempt(
         Verdict::Refines => preserved(&mut product),
         _ => Vec::new(),
     };
-    Ok(Ok(Report { verdict, progress, diagrams, assumed, idle, properties }))
+    Ok(Ok(Report { verdict, progress, diagrams, assumed, idle, properties, proof: None }))
 }
 
 /// What was not clear anywhere that matters.

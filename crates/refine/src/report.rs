@@ -6,6 +6,7 @@ use explore::Unbounded;
 use machine::Cause;
 
 use crate::evidence::Refutation;
+use crate::induction::proof::Proof;
 use crate::preserve::Preserved;
 
 /// How far the search is.
@@ -38,6 +39,8 @@ pub enum Why {
     Undistinguished(usize),
     /// Inputs of a machine had only the values that were given as bounds.
     Bounded(usize),
+    /// An inductive proof is not whole; its gap says why.
+    Unproved,
 }
 
 /// Why the answer would say nothing.
@@ -90,4 +93,6 @@ pub struct Report {
     pub idle: bool,
     /// If it refines: the properties of the abstract machine, and whether they come along.
     pub properties: Vec<Preserved>,
+    /// If it was to be proved by induction: how far the proof came.
+    pub proof: Option<Box<Proof>>,
 }

@@ -4,7 +4,10 @@
 //! is played again by stricter rules: what is still won then is what the abstract machine can keep to. INVARIANT: each answer is what
 //! holds for every run of the concrete machine, never for one that was met.
 
+use program::PropertyKind;
+
 use crate::CONCRETE;
+use crate::coupling::Coupling;
 use crate::game::{Rules, solve};
 use crate::product::Product;
 
@@ -35,6 +38,21 @@ pub struct Transfer {
 }
 
 impl Transfer {
+    /// Of a proof that knows no runs: by the diagrams that the coupling allows, whichever of them are used.
+    pub(crate) fn of_allowed(coupling: &Coupling) -> Transfer {
+        let diagrams = &coupling.diagrams;
+        let stands = coupling.waiting || coupling.variant.is_some();
+        let stands = stands && diagrams.0.iter().any(|diagram| *diagram.m.start() == 0);
+        let properties = &coupling.programs[CONCRETE].properties;
+        // An assumption may leave a state without a step.
+        let goes_on = !properties.iter().any(|property| property.kind == PropertyKind::Invar);
+        let ends = if diagrams.most_concrete() == 1 { Ends::Every } else { Ends::Some };
+        let each = diagrams.0.iter().all(|diagram| *diagram.m.end() <= 1);
+        let live = each && goes_on && !(stands && coupling.waiting);
+        let exact = live && ends == Ends::Every && !stands;
+        Transfer { ends, begins_inside: false, each, live, exact }
+    }
+
     /// Of a product whose game is won by the coupling's rules.
     pub(crate) fn of(product: &mut Product<'_>) -> Transfer {
         let rules = Rules::of(product, false);

@@ -17,7 +17,7 @@ use testkit::Random;
 use crate::small::{program, report};
 
 /// A random machine over `n` in 0..2, which is observed, a hidden flag and an input: the text of its main rule.
-fn rule(random: &mut Random) -> String {
+pub fn rule(random: &mut Random) -> String {
     let update = |random: &mut Random| -> String {
         match random.below(8) {
             0 => "skip".to_string(),
@@ -47,7 +47,7 @@ fn rule(random: &mut Random) -> String {
 }
 
 /// The same rule with one word changed: often a refinement still, often just not.
-fn changed(random: &mut Random, rule: &str) -> String {
+pub fn changed(random: &mut Random, rule: &str) -> String {
     let swaps = [
         ("n := 1", "n := 2"),
         ("go and h", "go"),
@@ -64,7 +64,7 @@ fn changed(random: &mut Random, rule: &str) -> String {
     rule.replacen(from, to, 1)
 }
 
-fn machine_of(rule: &str) -> Arc<Program> {
+pub fn machine_of(rule: &str) -> Arc<Program> {
     let text = format!(
         "asm M\nimport StandardLibrary\nsignature:\ndomain N subsetof Integer\nmonitored go: Boolean\ncontrolled n: N\n\
          controlled h: Boolean\ndefinitions:\ndomain N = {{0:2}}\nmain rule r_Main = {rule}\n\

@@ -20,7 +20,7 @@ pub fn example(text: &str) -> Arc<Program> {
 }
 
 /// A machine with this signature, main rule and initial state.
-fn machine(signature: &str, rule: &str, init: &str) -> Arc<Program> {
+pub fn machine(signature: &str, rule: &str, init: &str) -> Arc<Program> {
     let text = format!(
         "asm M\nimport StandardLibrary\nsignature:\n{signature}\ndefinitions:\n{rule}\ndefault init s0:\n{init}\n"
     );

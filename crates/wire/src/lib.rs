@@ -17,6 +17,7 @@ mod kept;
 mod mutation;
 mod proof_coverage;
 mod refinement;
+mod refinement_proof;
 mod report;
 mod review;
 mod run;

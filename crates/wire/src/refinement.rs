@@ -2,11 +2,12 @@
 //!
 //! In: a report with the words for its runs. Out: [`Refinement`]: the verdict, the extent, where it fails both runs with their diagrams.
 
-use groundstate::refine::{ABSTRACT, CONCRETE, Ended, Refutation, Report, SIDES, Vacuous, Verdict};
+use groundstate::refine::{ABSTRACT, CONCRETE, Ended, Refutation, Report, SIDES, Vacuous, Verdict, Why};
 use groundstate::tell::{Refinements, Standing};
 use serde::Serialize;
 
 use crate::RunStep;
+use crate::refinement_proof::ProofLine;
 
 /// `{"type":"refinement",…}`
 #[derive(Debug, Serialize)]
@@ -14,6 +15,8 @@ use crate::RunStep;
 pub struct Refinement {
     #[cfg_attr(test, schemars(extend("const" = "refinement")))]
     r#type: &'static str,
+    /// `explicit` or `induction`.
+    method: &'static str,
     /// `refines`, `does-not-refine`, `unknown` or `vacuous`.
     verdict: &'static str,
     /// Why it does not refine or is unknown.
@@ -43,6 +46,9 @@ pub struct Refinement {
     /// Both runs, where it does not refine.
     #[serde(skip_serializing_if = "Option::is_none")]
     runs: Option<RunPair>,
+    /// With `induction`: how far the proof came. Then `pairs` and what follows it are of a short search before.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    proof: Option<ProofLine>,
 }
 
 /// What a property of the abstract machine is in the concrete one.
@@ -125,6 +131,9 @@ impl Refinement {
             Verdict::DoesNot(refutation) => {
                 ("does-not-refine", vec![words.headline(refutation)], Some(refutation.as_ref()))
             }
+            Verdict::Unknown(whys) if whys.contains(&Why::Unproved) => {
+                ("unknown", report.proof.iter().map(|proof| words.gap(proof)).collect(), None)
+            }
             Verdict::Unknown(whys) => ("unknown", whys.iter().map(|why| words.why(why)).collect(), None),
             Verdict::Vacuous(vacuous) => {
                 let runs = match vacuous {
@@ -142,6 +151,7 @@ impl Refinement {
         };
         Refinement {
             r#type: "refinement",
+            method: if report.proof.is_some() { "induction" } else { "explicit" },
             verdict,
             reasons,
             coupling: (0..words.coupling.conjuncts()).map(|index| words.coupling.conjunct(index)).collect(),
@@ -175,6 +185,7 @@ impl Refinement {
                 })
                 .collect(),
             runs: refutation.map(|refutation| RunPair::new(words, refutation)),
+            proof: report.proof.as_ref().map(|proof| ProofLine::new(words, proof)),
         }
     }
 }

@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use clap::Args;
+use clap::{Args, ValueEnum};
 use groundstate::inputs::bound;
 use groundstate::job::{self, Cancel, RefineEvent};
 use groundstate::refine::{ABSTRACT, CONCRETE, Coupling, Extent, Options, Report, SIDES, Trouble, Verdict, read};
@@ -23,8 +23,12 @@ use crate::files::{read_source, write_text};
 use crate::interrupt;
 use crate::load::load;
 use crate::shell::Shell;
+use crate::solver::Process;
 use crate::verify::relative;
 use crate::verify::watch::Watch;
+
+/// The time limit for each question to a solver, in seconds.
+const SECONDS: u32 = 60;
 
 /// Arguments of `refine`.
 #[derive(Debug, Args)]
@@ -50,9 +54,24 @@ pub struct Arguments {
     /// Verify of the abstract model the properties that come along to the concrete one
     #[arg(long)]
     properties: bool,
+    /// Explore the pairs of states; or prove by induction, for states without end: z3 and cvc5 must both accept
+    #[arg(long, value_enum, default_value_t = Method::Explicit)]
+    method: Method,
+    /// Write what --method induction asks the solvers into this folder, as SMT-LIB
+    #[arg(long, value_name = "FOLDER")]
+    obligations: Option<PathBuf>,
     /// Write both runs of a refutation into this folder, as abstract.avalla and concrete.avalla
     #[arg(long, value_name = "FOLDER")]
     counterexample: Option<PathBuf>,
+}
+
+/// How it is decided.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Method {
+    /// By exploring the pairs of states.
+    Explicit,
+    /// By an inductive proof.
+    Induction,
 }
 
 /// What is asked: the paths of the models, and the coupling's text.
@@ -63,6 +82,7 @@ struct Question {
 
 /// Runs the command.
 pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
+    fits_method(arguments)?;
     let question = match question(shell, arguments)? {
         Ok(question) => question,
         Err(exit) => return Ok(exit),
@@ -103,7 +123,11 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     interrupt::listen();
     interrupt::bound_memory(arguments.max_memory);
     let mut watch = Watch::new(arguments.time, shell.global.quiet || shell.json());
-    let started = job::refine(coupling, options, Cancel::from(interrupt::request().clone()));
+    let cancel = Cancel::from(interrupt::request().clone());
+    let started = match arguments.method {
+        Method::Explicit => job::refine(coupling, options, cancel),
+        Method::Induction => job::prove(coupling, options, solvers()?, SECONDS, cancel),
+    };
     let job = started.map_err(|error| Failure::usage(format!("the search cannot be started: {error}")))?;
     while let Some(RefineEvent(progress)) = job.next_event() {
         let shown = Progress { states: progress.pairs, queue: progress.queue, ..Progress::default() };
@@ -125,6 +149,9 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
         Ok(report) => report,
         Err(trouble) => return no_report(shell, &trouble, [&models[0], &models[1]]),
     };
+    if let (Some(folder), Some(proof)) = (&arguments.obligations, &report.proof) {
+        write_obligations(folder, proof)?;
+    }
     tell(shell, &words, &report)?;
     if let (Some(folder), Verdict::DoesNot(refutation)) = (&arguments.counterexample, &report.verdict) {
         write_scenarios(shell, folder, &question.models, &words, refutation)?;
@@ -134,6 +161,43 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
         Verdict::DoesNot(_) | Verdict::Vacuous(_) => Exit::Model,
         Verdict::Unknown(_) => Exit::Unknown,
     })
+}
+
+/// Whether the options are those of the method.
+fn fits_method(arguments: &Arguments) -> Result<(), Failure> {
+    let refused = |option: &str, help: &str| Err(Failure::usage_with_help(option.to_string(), help));
+    match arguments.method {
+        Method::Explicit if arguments.obligations.is_some() => {
+            refused("--obligations is about proofs", "add --method induction")
+        }
+        Method::Induction if !arguments.bounds.is_empty() => {
+            refused("--method induction is about all values of inputs", "leave out --bound, or --method")
+        }
+        Method::Explicit | Method::Induction => Ok(()),
+    }
+}
+
+/// The solvers that are there.
+fn solvers() -> Result<Vec<Process>, Failure> {
+    let both = Process::both();
+    if both.is_empty() {
+        let message = "--method induction needs z3 and cvc5, and neither is on the PATH";
+        return Err(Failure::usage_with_help(
+            message,
+            "install both: sh cpp/install.sh z3 cvc5, or apt-get install z3 cvc5",
+        ));
+    }
+    Ok(both)
+}
+
+/// Writes what was asked, one file a question.
+fn write_obligations(folder: &Path, proof: &refine::Proof) -> Result<(), Failure> {
+    std::fs::create_dir_all(folder).map_err(|error| Failure::of_file("write", folder, error))?;
+    for (number, obligation) in proof.obligations.iter().enumerate() {
+        let file = folder.join(format!("{:02}-{}.smt2", number + 1, obligation.name.replace(' ', "-")));
+        write_text(&file, &obligation.script)?;
+    }
+    Ok(())
 }
 
 /// Verifies the properties of the abstract machine that come along.

@@ -40,6 +40,12 @@ impl Process {
         }
     }
 
+    /// Both solvers, as far as they are on the PATH.
+    pub fn both() -> Vec<Process> {
+        let there = ["z3", "cvc5"].into_iter().filter_map(|name| on_path(&[name]));
+        there.map(|program| Process { program: Some(program), named: false }).collect()
+    }
+
     fn program(&self) -> Result<&Path, String> {
         self.program.as_deref().ok_or_else(|| match self.named {
             true => "no solver may be asked".to_string(),

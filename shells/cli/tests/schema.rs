@@ -86,6 +86,8 @@ fn every_command_writes_what_the_schema_says() {
             "library/refinement/Manage.refine",
         ],
         vec!["refine", "library/refinement/Manage.refine"],
+        vec!["refine", "shells/cli/tests/cmd/refine.in/Filter.refine", "--method", "induction"],
+        vec!["refine", "shells/cli/tests/cmd/refine.in/Unsaid.refine", "--method", "induction"],
         vec!["graph", "shells/cli/tests/cmd/graph.in/Counter.asm", "--where", "count > 1"],
         vec!["graph", "shells/cli/tests/cmd/graph.in/Counter.asm", "--max-states", "2"],
         vec!["review", "shells/cli/tests/cmd/review.in/Door.asm"],

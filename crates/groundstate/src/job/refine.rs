@@ -1,10 +1,11 @@
 //! Decides a refinement, as a job.
 //!
-//! In: a coupling of two machines and options. Out: progress while the search goes on; at the end the report, or why there is none.
+//! In: a coupling of two machines and options, for a proof by induction solvers as well. Out: progress while the search goes on; at the end the report, or why there is none.
 
 use std::io;
 
-use ::refine::{Coupling, Options, Progress, Report, Trouble};
+use ::refine::{Coupling, Options, Progress, Provers, Report, Trouble};
+use solve::session::Solvers;
 
 use crate::job::{Cancel, Job};
 
@@ -27,6 +28,29 @@ pub fn refine(coupling: Coupling, mut options: Options, cancel: Cancel) -> io::R
             !port.is_cancelled()
         };
         let report = ::refine::refine(&coupling, &options, &mut watch);
+        (report, coupling)
+    })
+}
+
+/// Starts a proof by induction, like [`refine`]. Two solvers must accept it.
+///
+/// # Errors
+/// The system cannot start a thread.
+pub fn prove<S: Solvers + Send + 'static>(
+    coupling: Coupling,
+    mut options: Options,
+    mut solvers: Vec<S>,
+    seconds: u32,
+    cancel: Cancel,
+) -> io::Result<RefineJob> {
+    options.extents.iter_mut().for_each(|extent| extent.interrupt = cancel.interrupt().clone());
+    Job::start("refine", cancel, move |port| {
+        let mut watch = |progress: &Progress| {
+            port.mention(RefineEvent(*progress));
+            !port.is_cancelled()
+        };
+        let solvers = solvers.iter_mut().map(|solver| -> &mut dyn Solvers { solver }).collect();
+        let report = ::refine::prove(&coupling, &options, Provers { solvers, seconds }, &mut watch);
         (report, coupling)
     })
 }

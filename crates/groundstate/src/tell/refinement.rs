@@ -73,6 +73,11 @@ impl Refinements<'_> {
     /// The whole report as lines.
     pub fn report(&self, report: &Report) -> String {
         let mut lines = self.verdict(&report.verdict);
+        if let (Verdict::Unknown(whys), Some(proof)) = (&report.verdict, &report.proof)
+            && whys.contains(&Why::Unproved)
+        {
+            lines = vec![format!("not known: {}", self.gap(proof))];
+        }
         lines.extend(self.extent(report));
         lines.extend(self.properties(report));
         lines.iter().map(|line| format!("{}\n", line.trim_end())).collect()
@@ -132,6 +137,7 @@ impl Refinements<'_> {
                 format!("the coupling holds of all {pairs} pairs of states that were compared: it may say nothing")
             }
             Why::Valuations => "inputs that the concrete machine does not look at have too many values".to_string(),
+            Why::Unproved => "the proof by induction is not whole".to_string(),
             Why::Bounded(side) => {
                 format!("inputs of the {} machine had only the values that were given as bounds", SIDES[*side])
             }
@@ -159,6 +165,7 @@ impl Refinements<'_> {
                 .map(|((m, n), times)| format!("{m}:{n} in {}", plural(*times as usize, "place")));
             lines.push(format!("  diagrams   {}", used.collect::<Vec<_>>().join(", ")));
         }
+        lines.extend(report.proof.iter().flat_map(|proof| self.proof(proof)));
         for (word, names) in [("same input", &self.coupling.inputs), ("free input", &self.coupling.free)] {
             if !names.is_empty() && matches!(report.verdict, Verdict::Refines) {
                 lines.push(format!("  {word} {}", names.join(", ")));
@@ -175,8 +182,10 @@ impl Refinements<'_> {
             lines.push("  note: the abstract machine makes no step that changes its state".to_string());
         }
         let open = if progress.queue > 0 { format!(" ({} not looked at)", progress.queue) } else { String::new() };
+        // What a proof rests on are not the pairs that were searched before it.
+        let first = if report.proof.is_some() { "searched before: " } else { "" };
         lines.push(format!(
-            "{}{open} of {} and {}, {} and {}",
+            "{first}{}{open} of {} and {}, {} and {}",
             plural(progress.pairs as usize, "pair"),
             plural(progress.states[ABSTRACT] as usize, "abstract state"),
             plural(progress.states[CONCRETE] as usize, "concrete state"),

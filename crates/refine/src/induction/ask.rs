@@ -1,0 +1,105 @@
+//! Asks solvers about formulas, and keeps what they said as [`Obligation`]s.
+//!
+//! In: the shared terms, the solvers. Out: obligations with their scripts, which are whole files of SMT-LIB: whoever wants can run another
+//! solver on them. INVARIANT: each question goes to a solver that was just started, and so depends on nothing else.
+
+use std::fmt::Write;
+
+use rustc_hash::FxHashMap;
+use solve::session::{Constant, Silence, Solvers, Verdict, constants, verdict};
+use solve::shared::{Kind, Node, Script, Terms, VariableId};
+
+use super::proof::{Obligation, Said};
+
+/// The values that a solver gave to variables.
+pub(super) type Model = FxHashMap<VariableId, Constant>;
+
+/// See the module.
+pub(super) struct Ask<'s, 'w> {
+    pub solvers: Vec<&'s mut dyn Solvers>,
+    /// For each question, in seconds.
+    pub seconds: u32,
+    pub go_on: &'w mut dyn FnMut() -> bool,
+    pub obligations: Vec<Obligation>,
+    /// Whoever waits has had enough.
+    pub stopped: bool,
+}
+
+impl Ask<'_, '_> {
+    /// Asks whether a condition can hold, which it should not, or with `sense` should. Returns a state in which it holds, if a solver has one.
+    pub fn ask(&mut self, terms: &Terms, name: &str, claim: &str, condition: Node, sense: bool) -> Option<Model> {
+        let variables = terms.variables_of([condition]);
+        let script = script(terms, &variables, condition, claim, sense);
+        let mut said = Vec::new();
+        let mut model = None;
+        for index in 0..self.solvers.len() {
+            let (answer, found) = self.one(terms, index, &script, &variables);
+            said.push(answer);
+            model = model.or(found);
+            // What one solver says makes sense needs no second one.
+            if self.stopped || sense && said.last() == Some(&Said::Possible) && said.len() > 1 {
+                break;
+            }
+        }
+        self.obligations.push(Obligation { name: name.to_string(), claim: claim.to_string(), script, sense, said });
+        model
+    }
+
+    /// Whether a condition can hold, on the word of the first solver: for what is told and not relied on.
+    pub fn possible(&mut self, terms: &Terms, condition: Node) -> bool {
+        let variables = terms.variables_of([condition]);
+        let script = script(terms, &variables, condition, "", true);
+        !self.solvers.is_empty() && self.one(terms, 0, &script, &variables).0 == Said::Possible
+    }
+
+    fn one(&mut self, terms: &Terms, index: usize, script: &str, variables: &[VariableId]) -> (Said, Option<Model>) {
+        let said = |silence: Silence| match silence {
+            Silence::Late => (Said::Late, None),
+            Silence::Stopped => (Said::Late, None),
+            Silence::Broken(reason) => (Said::Broken(reason), None),
+        };
+        let mut session = match self.solvers[index].start() {
+            Ok(session) => session,
+            Err(silence) => return said(silence),
+        };
+        let answer = session.ask(script, self.seconds, self.go_on);
+        self.stopped |= answer == Err(Silence::Stopped);
+        match answer.and_then(|answer| verdict(&answer)) {
+            Ok(Verdict::Impossible) => (Said::Impossible, None),
+            Ok(Verdict::Unknown) => (Said::Unknown, None),
+            Err(silence) => said(silence),
+            Ok(Verdict::Possible) => {
+                let mut model = Model::default();
+                if !variables.is_empty() {
+                    let names: Vec<String> = variables.iter().map(|id| Script::name(terms, *id, 0)).collect();
+                    let kinds: Vec<Kind> = variables.iter().map(|id| terms.variable_of(*id).kind).collect();
+                    let asked = format!("(get-value ({}))\n", names.join(" "));
+                    if let Ok(answer) = session.ask(&asked, self.seconds, self.go_on) {
+                        let values = variables.iter().copied().zip(constants(&answer, &kinds));
+                        model.extend(values.filter_map(|(id, value)| Some((id, value?))));
+                    }
+                }
+                (Said::Possible, Some(model))
+            }
+        }
+    }
+
+    /// The index of the last obligation.
+    pub fn last(&self) -> usize {
+        self.obligations.len() - 1
+    }
+}
+
+/// A whole file of SMT-LIB.
+fn script(terms: &Terms, variables: &[VariableId], condition: Node, claim: &str, sense: bool) -> String {
+    let mut text = String::new();
+    if !claim.is_empty() {
+        let wanted = if sense { "sat" } else { "unsat" };
+        let _ = writeln!(text, "; {claim}\n; accepted if the answer is {wanted}");
+    }
+    text.push_str("(set-option :produce-models true)\n(set-logic ALL)\n");
+    Script::declare(terms, variables, 0, &mut text);
+    let written = Script::default().term(terms, condition, 0, &mut text);
+    let _ = writeln!(text, "(assert {written})\n(check-sat)");
+    text
+}

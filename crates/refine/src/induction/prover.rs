@@ -1,0 +1,246 @@
+//! A proof by induction in the making: what is asked first, and how an answer ends it.
+//!
+//! In: a coupling, options, solvers. Out: the obligations that were asked, or the [`Ended`] at which the proof does not go on. It asks about
+//! the initial states, and whether the question says something; [`super::steps`] asks about the diagrams. INVARIANT: where
+//! [`Prover::all`] comes to its end no solver denies an obligation, and none was left out.
+
+use std::collections::BTreeMap;
+
+use explore::{Start, Told, input_values};
+use solve::Outside;
+use solve::shared::{Node, Terms};
+
+use super::ask::{Ask, Model};
+use super::diagrams::{Answer, Diagrams};
+use super::proof::{Gap, Origin, Said, Stuck};
+use super::related::{Related, read, related};
+use super::symbolic::{Replacement, Store, Subject, Symbolic, input_location, nowhere};
+use crate::coupling::Coupling;
+use crate::product::{Node as GameNode, NodeId};
+use crate::refine::{Options, product};
+use crate::report::Vacuous;
+use crate::side::StateId;
+use crate::{ABSTRACT, CONCRETE};
+
+/// LIMIT: so many initial states of a machine.
+const STARTS: usize = 256;
+/// Why a proof ends early.
+pub(super) enum Ended {
+    Gap(Gap),
+    Vacuous(Vacuous),
+}
+
+impl From<Gap> for Ended {
+    fn from(gap: Gap) -> Ended {
+        Ended::Gap(gap)
+    }
+}
+
+pub(super) fn outside(origin: Origin) -> impl Fn(Outside) -> Ended {
+    move |outside| Ended::Gap(Gap::Outside(origin, outside))
+}
+
+/// A proof in the making.
+pub(super) struct Prover<'p, 's, 'w> {
+    pub coupling: &'p Coupling,
+    pub options: &'p Options,
+    pub ask: Ask<'s, 'w>,
+    pub store: Store,
+    pub diagrams: Vec<(u32, u32)>,
+}
+
+/// An initial state of the concrete machine, and one of the abstract machine that corresponds if there is one.
+type Begun = (usize, Option<usize>);
+
+/// Where a diagram may end: that it comes so far, and the answers then.
+pub(super) type End = (u32, Node, Vec<Answer>);
+
+impl Prover<'_, '_, '_> {
+    /// Asks all questions, until one of them ends the proof.
+    pub fn all(&mut self) -> Result<(), Ended> {
+        let coupling = self.coupling;
+        let (starts, begun) = self.starts()?;
+        let limits = &self.options.extents[CONCRETE].limits;
+        let read = read(coupling, limits).map_err(outside(Origin::Coupling))?;
+        let mut machines = Vec::new();
+        for side in [ABSTRACT, CONCRETE] {
+            let program = &coupling.programs[side];
+            let extent = &self.options.extents[side];
+            let of = Subject {
+                side,
+                program,
+                limits: &extent.limits,
+                bounds: input_values(program, &extent.bounds, &Default::default()),
+                starts: &starts[side],
+                readers: &coupling.readers[side],
+                read: &read[side],
+                watched: if side == CONCRETE { &coupling.watched } else { &[] },
+            };
+            machines.push(Symbolic::of(&of, &mut self.store).map_err(outside(Origin::Side(side)))?);
+        }
+        let machines = [&machines[ABSTRACT], &machines[CONCRETE]];
+        self.keeps_no_input(machines[ABSTRACT], &starts[ABSTRACT])?;
+        let related = related(coupling, limits, machines, &mut self.store).map_err(outside(Origin::Coupling))?;
+        let hypothesis = self.hypothesis(machines, &related);
+        self.begin(machines, &related, &begun)?;
+        self.sense(machines, &related, hypothesis)?;
+        let ends = self.steps(machines, &related, hypothesis)?;
+        self.uses(&ends);
+        Ok(())
+    }
+
+    /// The initial states of both machines, and which correspond; by the machines themselves.
+    fn starts(&mut self) -> Result<([Vec<Told>; 2], Vec<Begun>), Ended> {
+        let none = |_| Ended::Gap(Gap::Outside(Origin::Coupling, nowhere("initial states that cannot be made again")));
+        let product = product(self.coupling, self.options).map_err(none)?;
+        let mut numbers: [BTreeMap<StateId, usize>; 2] = Default::default();
+        let mut starts: [Vec<Start>; 2] = Default::default();
+        for side in [ABSTRACT, CONCRETE] {
+            let all = if side == ABSTRACT { &product.initial } else { &product.begun };
+            for (_, state, start) in all.clone() {
+                if !numbers[side].contains_key(&state) {
+                    numbers[side].insert(state, starts[side].len());
+                    starts[side].push(start);
+                }
+            }
+            if starts[side].len() > STARTS {
+                let what = format!("more than {STARTS} initial states");
+                return Err(Gap::Outside(Origin::Side(side), nowhere(&what)).into());
+            }
+        }
+        let mut begun = Vec::new();
+        let mut open: Vec<NodeId> = vec![product.root];
+        while let Some(node) = open.pop() {
+            match &product.nodes[node as usize] {
+                GameNode::Deeds(deeds) => open.extend(deeds.iter().rev().map(|(_, node)| *node)),
+                GameNode::Choice(ways) => open.extend(ways),
+                GameNode::Answers(end) => {
+                    let first = end.answers.first().map(|(pair, _)| product.pairs[*pair as usize].0);
+                    let pair = (numbers[CONCRETE][&end.to], first.map(|state| numbers[ABSTRACT][&state]));
+                    if !begun.contains(&pair) {
+                        begun.push(pair);
+                    }
+                }
+                GameNode::Fault | GameNode::Open(_) => {
+                    let what = "inputs of initial states that have too many values";
+                    return Err(Gap::Outside(Origin::Coupling, nowhere(what)).into());
+                }
+            }
+        }
+        let told = [ABSTRACT, CONCRETE].map(|side| {
+            let of = |start: &Start| product.sides[side].explorer.told_of_start(*start);
+            starts[side].iter().map(of).collect()
+        });
+        Ok((told, begun))
+    }
+
+    /// An input that the abstract machine's initial state has looked at keeps its value in the first step, which no formula says.
+    fn keeps_no_input(&self, machine: &Symbolic, starts: &[Told]) -> Result<(), Ended> {
+        let used = machine.used_inputs(&self.store.terms);
+        let kept = |told: &Told| {
+            let mut read = told.inputs.iter().map(|(location, _)| location.function);
+            read.any(|function| used.iter().filter_map(input_location).any(|(other, ..)| other == function))
+        };
+        if starts.iter().any(kept) {
+            let what = "an input that the initial state of the abstract machine looks at, and its first step again";
+            return Err(Gap::Outside(Origin::Side(ABSTRACT), nowhere(what)).into());
+        }
+        Ok(())
+    }
+
+    /// What is known of a pair of states that diagrams begin in.
+    fn hypothesis(&mut self, machines: [&Symbolic; 2], related: &Related) -> Node {
+        let terms = &mut self.store.terms;
+        let coupled = related.perhaps(terms);
+        let begins = if related.ends == Terms::TRUE { Terms::TRUE } else { machines[CONCRETE].begins(terms) };
+        let ends = terms.or([related.ends, related.ends_stray, begins]);
+        terms.and([machines[ABSTRACT].perhaps, machines[CONCRETE].perhaps, coupled, ends])
+    }
+
+    /// An obligation; unless it is accepted, the state in which it fails if a solver has one.
+    pub fn oblige(&mut self, name: &str, claim: &str, condition: Node) -> Result<(), Option<Model>> {
+        let model = self.ask.ask(&self.store.terms, name, claim, condition, false);
+        let said = &self.ask.obligations[self.ask.last()].said;
+        // Whether there are enough that accept it is judged at the end.
+        match said.iter().all(|said| *said == Said::Impossible) {
+            true => Ok(()),
+            false => Err(model),
+        }
+    }
+
+    /// The gap that the last obligation leaves.
+    pub fn gap(&self, stuck: Option<Stuck>) -> Ended {
+        let last = self.ask.last();
+        Ended::Gap(match stuck {
+            _ if self.ask.obligations[last].is_contradicted() => Gap::Contradicted(last),
+            Some(stuck) => Gap::Stuck(last, Box::new(stuck)),
+            None => Gap::Silent(last),
+        })
+    }
+
+    /// Each initial state of the concrete machine corresponds to one of the abstract machine.
+    fn begin(&mut self, machines: [&Symbolic; 2], related: &Related, begun: &[Begun]) -> Result<(), Ended> {
+        let terms = &mut self.store.terms;
+        let mut any = Vec::new();
+        for (concrete, other) in begun {
+            let sides = [(CONCRETE, Some(*concrete)), (ABSTRACT, *other)];
+            let mut all = Vec::new();
+            for (side, start) in sides {
+                let Some(start) = start else { continue };
+                for (id, value) in machines[side].state.iter().zip(&machines[side].starts[start]) {
+                    let variable = terms.known(*id);
+                    all.push(terms.equal(variable, *value));
+                }
+            }
+            let holds = if other.is_some() { related.surely(terms) } else { Terms::FALSE };
+            all.push(terms.not(holds));
+            any.push(terms.and(all));
+        }
+        let fails = terms.or(any);
+        let claim = "each initial state of the concrete machine corresponds to one of the abstract machine";
+        self.oblige("initial", claim, fails).map_err(|_| self.gap(None))
+    }
+
+    /// The question says something: the coupling holds of a pair, it tells states apart, and the concrete machine makes a step.
+    fn sense(&mut self, machines: [&Symbolic; 2], related: &Related, hypothesis: Node) -> Result<(), Ended> {
+        let coupling = self.coupling;
+        self.makes_sense("coupled", "the coupling holds of some pair of states", hypothesis, None)?;
+        let store = &mut self.store;
+        // Two pairs whose states do not correspond crosswise: else the coupling is about each state alone.
+        let mut copies = Vec::new();
+        for id in machines.iter().flat_map(|machine| &machine.state) {
+            let variable = store.terms.variable_of(*id);
+            let (name, kind, bounds) = (format!("other {}", variable.name), variable.kind, variable.bounds);
+            copies.push((*id, store.terms.variable(name, kind, bounds)));
+        }
+        let mut both = Replacement::new(copies.iter().copied());
+        let other = store.replaced(hypothesis, &mut both);
+        let concrete = copies.into_iter().filter(|(id, _)| machines[CONCRETE].state.contains(id));
+        let mut cross = Replacement::new(concrete);
+        let surely = related.surely(&mut store.terms);
+        let crosswise = store.replaced(surely, &mut cross);
+        let apart = store.terms.not(crosswise);
+        let node = store.terms.and([hypothesis, other, apart]);
+        self.makes_sense("tells apart", "the coupling tells states apart", node, Some(Vacuous::Total))?;
+        let mut diagrams = Diagrams::new(coupling, machines, related, &mut self.store);
+        let step = diagrams.step(&mut self.store).map_err(outside(Origin::Side(ABSTRACT)))?;
+        let node = self.store.terms.and([hypothesis, step.facts, step.goes, step.changed]);
+        let claim = "the concrete machine makes a step that changes its state, from a pair that corresponds";
+        self.makes_sense("a step", claim, node, Some(Vacuous::NoStep))
+    }
+
+    fn makes_sense(&mut self, name: &str, claim: &str, node: Node, vacuous: Option<Vacuous>) -> Result<(), Ended> {
+        self.ask.ask(&self.store.terms, name, claim, node, true);
+        let last = &self.ask.obligations[self.ask.last()];
+        if last.is_accepted() {
+            return Ok(());
+        }
+        let denied = last.said.contains(&Said::Impossible);
+        Err(match vacuous.filter(|_| denied) {
+            _ if last.is_contradicted() => Gap::Contradicted(self.ask.last()).into(),
+            Some(vacuous) => Ended::Vacuous(vacuous),
+            // A pair of initial states corresponds, so the first of these checks is never denied.
+            None => Gap::Silent(self.ask.last()).into(),
+        })
+    }
+}

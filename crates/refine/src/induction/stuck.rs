@@ -1,0 +1,137 @@
+//! Tells the pair of states from which an obligation fails.
+//!
+//! In: the values that a solver gave to the variables, the steps of the diagram, the answers that were tried. Out: a [`Stuck`]. Nothing of
+//! it is relied on: the pair may be one that no runs reach.
+
+use machine::{Location, Show, Value};
+use solve::session::Constant;
+use solve::shared::{Kind, Node, VariableId, value_at};
+use solve::symbol::{Codes, Shape, value_of};
+
+use super::ask::Model;
+use super::diagrams::{Answer, Step};
+use super::proof::{Attempt, Stuck};
+use super::symbolic::{Store, Symbolic, input_location};
+use crate::coupling::Coupling;
+use crate::evidence::Differs;
+use crate::{ABSTRACT, CONCRETE};
+
+/// LIMIT: so many of the best candidates are told.
+const TRIED: usize = 3;
+
+/// The values of all terms in a solver's state.
+struct Values<'s> {
+    codes: &'s Codes,
+    of: Vec<Option<Constant>>,
+}
+
+impl Values<'_> {
+    fn truth(&self, node: Node) -> bool {
+        value_at(&self.of, node) == Some(Constant::Boolean(true))
+    }
+
+    fn value(&self, shape: Shape, node: Node) -> Option<Value> {
+        value_of(self.codes, shape, value_at(&self.of, node)?)
+    }
+
+    /// The values of a machine's locations; of those alone that the solver was told of, if a model is given.
+    fn state(&self, machine: &Symbolic, state: &[Node], model: Option<&Model>) -> Vec<(Location, Value)> {
+        let mut at = 0;
+        let mut found = Vec::new();
+        for place in &machine.places {
+            let node = state[at];
+            let is_told = model.is_none_or(|model| {
+                let own = machine.state.get(at..at + 1 + usize::from(place.defined != solve::shared::Terms::TRUE));
+                own.is_some_and(|own| own.iter().any(|id| model.contains_key(id)))
+            });
+            at += 1;
+            let mut defined = true;
+            if place.defined != solve::shared::Terms::TRUE {
+                defined = self.truth(state[at]);
+                at += 1;
+            }
+            let value = if defined { self.value(place.shape, node) } else { Some(Value::Undef) };
+            if is_told {
+                found.extend(value.map(|value| (place.location.clone(), value)));
+            }
+        }
+        found
+    }
+}
+
+/// Tells a pair of states, the steps from there, and the answers to the last of them.
+pub(super) fn tell(
+    store: &mut Store,
+    coupling: &Coupling,
+    machines: [&Symbolic; 2],
+    model: &Model,
+    steps: &[Step],
+    answers: &[Answer],
+    fault: Option<String>,
+) -> Stuck {
+    let here = machines.map(|machine| machine.here(&mut store.terms));
+    let terms = &store.terms;
+    let value = |id: VariableId| {
+        let variable = terms.variable_of(id);
+        let least = match variable.kind {
+            Kind::Boolean => Constant::Boolean(false),
+            Kind::Integer => Constant::Integer(variable.bounds.0.unwrap_or(0)),
+            Kind::Real => Constant::Real(0.0),
+        };
+        Some(model.get(&id).copied().unwrap_or(least))
+    };
+    let values = Values { codes: &store.codes, of: terms.values(&value) };
+    let shown = |side: usize, values: Vec<(Location, Value)>| -> Differs {
+        let program = &coupling.programs[side];
+        let one = |(location, value): (Location, Value)| {
+            (location.show(program).to_string(), value.show(program).to_string())
+        };
+        values.into_iter().map(one).collect()
+    };
+    let states = [ABSTRACT, CONCRETE].map(|side| shown(side, values.state(machines[side], &here[side], Some(model))));
+    let mut made = Vec::new();
+    for step in steps {
+        let mut inputs = Vec::new();
+        for (input, own) in &step.inputs {
+            if let (Some((function, arguments, shape)), true) = (input_location(input), model.contains_key(own)) {
+                let location = Location { function, arguments: arguments.to_vec() };
+                let constant = model[own];
+                inputs.extend(value_of(values.codes, shape, constant).map(|value| (location, value)));
+            }
+        }
+        let (before, after) =
+            (values.state(machines[CONCRETE], &step.from, None), values.state(machines[CONCRETE], &step.to, None));
+        let changes = match values.truth(step.goes) {
+            true => after.into_iter().filter(|one| !before.contains(one)).collect(),
+            false => Vec::new(),
+        };
+        made.push((shown(CONCRETE, inputs), shown(CONCRETE, changes)));
+    }
+    let mut tried: Vec<Attempt> = Vec::new();
+    for answer in answers {
+        if !values.truth(answer.made) || values.truth(answer.holds) {
+            continue;
+        }
+        let failing: Vec<String> = (0..answer.parts.len())
+            .filter(|part| !values.truth(answer.parts[*part]))
+            .map(|part| coupling.conjunct(part))
+            .collect();
+        let stands = answer.m == 0 && failing.is_empty();
+        let attempt = Attempt { m: answer.m, parts: failing, stands };
+        if !tried.contains(&attempt) {
+            tried.push(attempt);
+        }
+    }
+    tried.sort_by_key(|attempt| (attempt.parts.len(), attempt.m == 0));
+    tried.truncate(TRIED);
+    Stuck { states, steps: made, fault, tried }
+}
+
+/// The first fault or stray that holds.
+pub(super) fn which<'w, T>(store: &Store, model: &Model, of: impl Iterator<Item = (Node, &'w T)>) -> Option<&'w T> {
+    let value = |id: VariableId| model.get(&id).copied();
+    let values = store.terms.values(&value);
+    let mut all: Vec<(Node, &T)> = of.collect();
+    let found = all.iter().position(|(node, _)| value_at(&values, *node) == Some(Constant::Boolean(true)));
+    found.map(|index| all.swap_remove(index).1)
+}

@@ -1,0 +1,119 @@
+//! A proof of refinement by induction, as a JSON object: what solvers said of each obligation, and where the proof does not go on.
+//!
+//! In: a proof with the words for it. Out: [`ProofLine`], which stands in the object of the refinement.
+
+use groundstate::refine::{ABSTRACT, CONCRETE, Gap, Proof, Stuck};
+use groundstate::tell::{Refinements, said};
+use serde::Serialize;
+
+/// A proof, or how far it came.
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub(crate) struct ProofLine {
+    /// The solvers, with their versions.
+    solvers: Vec<String>,
+    /// What they were asked, in order.
+    obligations: Vec<ObligationLine>,
+    /// The diagrams that answers use: numbers of abstract and of concrete steps.
+    diagrams: Vec<(u32, u32)>,
+    /// What decreases while the abstract machine makes no step.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    variant: Option<String>,
+    /// Why it is not whole.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    gap: Option<String>,
+    /// A pair of states that corresponds and from which the last obligation fails. No run need reach it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    stuck: Option<StuckLine>,
+}
+
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+struct ObligationLine {
+    name: String,
+    /// What holds if it is accepted.
+    claim: String,
+    /// The answer with which it is accepted, `unsat` or `sat`.
+    wants: &'static str,
+    /// What each solver said.
+    said: Vec<String>,
+    accepted: bool,
+}
+
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+struct StuckLine {
+    r#abstract: Vec<(String, String)>,
+    concrete: Vec<(String, String)>,
+    /// The concrete steps from there.
+    steps: Vec<StuckStep>,
+    /// What the last of them comes to, if it cannot be made.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    fault: Option<String>,
+    /// What the abstract machine could do.
+    tried: Vec<AttemptLine>,
+}
+
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+struct StuckStep {
+    inputs: Vec<(String, String)>,
+    changes: Vec<(String, String)>,
+}
+
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+struct AttemptLine {
+    /// How many steps it makes.
+    steps: u32,
+    /// The parts of the coupling that do not hold then.
+    fails: Vec<String>,
+    /// All parts hold, but no variant says that it does not stand still for ever.
+    stands_still: bool,
+}
+
+impl ProofLine {
+    /// A proof.
+    pub fn new(words: &Refinements<'_>, proof: &Proof) -> ProofLine {
+        let line = |obligation: &groundstate::refine::Obligation| ObligationLine {
+            name: obligation.name.clone(),
+            claim: obligation.claim.clone(),
+            wants: if obligation.sense { "sat" } else { "unsat" },
+            said: obligation.said.iter().map(said).collect(),
+            accepted: obligation.is_accepted(),
+        };
+        let stuck = match &proof.gap {
+            Some(Gap::Stuck(_, stuck)) => Some(StuckLine::new(stuck)),
+            _ => None,
+        };
+        ProofLine {
+            solvers: proof.solvers.clone(),
+            obligations: proof.obligations.iter().map(line).collect(),
+            diagrams: proof.diagrams.clone(),
+            variant: words.coupling.variant(),
+            gap: proof.gap.is_some().then(|| words.gap(proof)),
+            stuck,
+        }
+    }
+}
+
+impl StuckLine {
+    fn new(stuck: &Stuck) -> StuckLine {
+        let step = |(inputs, changes): &(Vec<(String, String)>, Vec<(String, String)>)| StuckStep {
+            inputs: inputs.clone(),
+            changes: changes.clone(),
+        };
+        let attempt = |attempt: &groundstate::refine::Attempt| AttemptLine {
+            steps: attempt.m,
+            fails: attempt.parts.clone(),
+            stands_still: attempt.stands,
+        };
+        StuckLine {
+            r#abstract: stuck.states[ABSTRACT].clone(),
+            concrete: stuck.states[CONCRETE].clone(),
+            steps: stuck.steps.iter().map(step).collect(),
+            fault: stuck.fault.clone(),
+            tried: stuck.tried.iter().map(attempt).collect(),
+        }
+    }
+}

@@ -1,0 +1,85 @@
+//! `groundstate refine --method induction`: what it says with both solvers, with one, and with none; and that the files that it writes are
+//! what the solvers were asked. Where a solver is missing what needs it is not tested, and stderr says so.
+
+#![allow(clippy::disallowed_methods, reason = "a test runs the command on files, with another search path")]
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use testkit::solver::solvers;
+
+fn folder() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/cmd/refine.in")
+}
+
+/// The path of a program.
+fn found(name: &str) -> Option<PathBuf> {
+    let folders = std::env::var_os("PATH")?;
+    std::env::split_paths(&folders).map(|folder| folder.join(name)).find(|path| path.is_file())
+}
+
+/// What the command says, by this search path if there is one.
+fn said(coupling: &str, more: &[&str], path: Option<&Path>) -> (Option<i32>, String) {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_groundstate"));
+    command.args(["refine", coupling, "--method", "induction"]).args(more).current_dir(folder());
+    if let Some(path) = path {
+        command.env("PATH", path);
+    }
+    let output = command.output().expect("it starts");
+    let text = format!("{}{}", String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
+    (output.status.code(), text)
+}
+
+#[test]
+fn both_solvers_prove() {
+    if solvers(false).len() < 2 {
+        return;
+    }
+    let asked = tempfile::tempdir().expect("a temporary folder");
+    let (code, text) = said("Filter.refine", &["--obligations", &asked.path().display().to_string()], None);
+    assert_eq!(code, Some(0), "{text}");
+    assert!(text.contains("by induction: 6 obligations, accepted by z3 and cvc5"), "{text}");
+    let mut files: Vec<PathBuf> =
+        std::fs::read_dir(asked.path()).expect("the folder").map(|entry| entry.expect("a file").path()).collect();
+    files.sort();
+    assert_eq!(files.len(), 6, "{files:?}");
+    for file in files {
+        let script = std::fs::read_to_string(&file).expect("a script");
+        let wanted = script.lines().find_map(|line| line.strip_prefix("; accepted if the answer is ")).expect("it says");
+        for solver in ["z3", "cvc5"] {
+            let output = Command::new(solver).arg(&file).output().expect("it starts");
+            assert_eq!(String::from_utf8_lossy(&output.stdout).trim(), wanted, "{solver} {}", file.display());
+        }
+    }
+}
+
+#[test]
+fn what_is_not_proved_is_not_refuted() {
+    if solvers(false).len() < 2 {
+        return;
+    }
+    let (code, text) = said("Unsaid.refine", &[], None);
+    assert_eq!(code, Some(3), "{text}");
+    assert!(text.contains("not known: the induction fails at `step 1 made`"), "{text}");
+    assert!(text.contains("no run need reach"), "{text}");
+    let (code, text) = said("Unsaid.refine", &["--format", "json"], None);
+    assert_eq!(code, Some(3), "{text}");
+    assert!(text.contains(r#""verdict":"unknown""#) && text.contains(r#""stuck":{"#), "{text}");
+}
+
+#[test]
+fn one_solver_proves_nothing_and_none_is_asked_for() {
+    let empty = tempfile::tempdir().expect("a temporary folder");
+    let (code, text) = said("Filter.refine", &[], Some(empty.path()));
+    assert_eq!(code, Some(2), "{text}");
+    assert!(text.contains("needs z3 and cvc5") && text.contains("cpp/install.sh z3 cvc5"), "{text}");
+    for (name, other) in [("z3", "cvc5"), ("cvc5", "z3")] {
+        let Some(solver) = found(name) else { continue };
+        let alone = tempfile::tempdir().expect("a temporary folder");
+        std::os::unix::fs::symlink(solver, alone.path().join(name)).expect("a link");
+        let (code, text) = said("Filter.refine", &[], Some(alone.path()));
+        assert_eq!(code, Some(3), "{text}");
+        assert!(text.contains(&format!("only {name} accepts the proof")), "{text}");
+        assert!(text.contains(&format!("cpp/install.sh {other}")), "{text}");
+    }
+}
