@@ -110,6 +110,7 @@ msrv: ## the workspace, checked by the oldest Rust that Cargo.toml promises, if 
 	else echo "msrv: not checked: Rust $(OLDEST) is not installed (rustup toolchain install $(OLDEST) --profile minimal)"; fi
 
 verify: $(GROUNDSTATE) ## the pattern library's properties in every state, its seeded faults found, its refinements, the reference systems counted: minutes, 4 GB
+	sh cpp/install.sh z3 cvc5
 	sh library/verification/verify.sh $(GROUNDSTATE) expected.txt expected-long.txt
 	sh library/refinement/refine.sh $(GROUNDSTATE) $(REFINEMENTS:%=%/expected.txt) $(REFINEMENTS:%=%/expected-long.txt)
 	sh library/verification/mutants.sh $(GROUNDSTATE) mutants.txt

@@ -21,4 +21,4 @@ definitions:
 		endif
 
 default init s0:
-	function position = 0
+	function position = 32768

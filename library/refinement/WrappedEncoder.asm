@@ -21,14 +21,16 @@ definitions:
 				raw := $sum - 65536
 				turns := turns + 1
 			endpar
-		else if $sum < 0 then
-			par
-				raw := $sum + 65536
-				turns := turns - 1
-			endpar
 		else
-			raw := $sum
-		endif endif
+			if $sum < 0 then
+				par
+					raw := $sum + 65536
+					turns := turns - 1
+				endpar
+			else
+				raw := $sum
+			endif
+		endif
 
 	main rule r_Main =
 		let ($place = 65536 * turns + raw + moved) in
@@ -38,5 +40,5 @@ definitions:
 		endlet
 
 default init s0:
-	function raw = 0
+	function raw = 32768
 	function turns = 0

@@ -1,6 +1,6 @@
 /**
- * A wrong sibling of WrappedEncoder (no proof, and a run that shows it):
- * where the counter goes round downwards, the turn is not taken back.
+ * A wrong sibling of WrappedEncoder: where the counter goes round upwards, the turn is forgotten. The first run that shows it has 328 steps
+ * at full speed: a short search does not find it, and no proof goes through.
  */
 asm WrappedEncoderFaulty
 
@@ -18,15 +18,17 @@ definitions:
 
 	rule r_Count($sum in Integer) =
 		if $sum > 65535 then
-			par
-				raw := $sum - 65536
-				turns := turns + 1
-			endpar
-		else if $sum < 0 then
-			raw := $sum + 65536
+			raw := $sum - 65536
 		else
-			raw := $sum
-		endif endif
+			if $sum < 0 then
+				par
+					raw := $sum + 65536
+					turns := turns - 1
+				endpar
+			else
+				raw := $sum
+			endif
+		endif
 
 	main rule r_Main =
 		let ($place = 65536 * turns + raw + moved) in
@@ -36,5 +38,5 @@ definitions:
 		endlet
 
 default init s0:
-	function raw = 0
+	function raw = 32768
 	function turns = 0

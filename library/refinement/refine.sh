@@ -1,6 +1,7 @@
 #!/bin/sh
-# Proves refinements, and refutes their wrong siblings, and compares with what is expected: of how many pairs of states, and for which
-# reason. Arguments: groundstate's path, and files of expectations; each speaks of the models and couplings in its own folder.
+# Proves refinements, and refutes their wrong siblings, and compares with what is expected: of how many pairs of states, by how many
+# obligations, and for which reason. Arguments: groundstate's path, and files of expectations; each speaks of the models and couplings in
+# its own folder.
 set -u
 case $1 in */*) groundstate=$(cd "$(dirname "$1")" && pwd)/$(basename "$1") ;; *) groundstate=$1 ;; esac
 shift
@@ -20,6 +21,8 @@ for list; do
 		case $expected in
 		'refines '*) wanted=0 line="${expected#refines } pairs of " ;;
 		'refuted '*) wanted=1 line="does not refine: ${expected#refuted }" ;;
+		'proved '*) wanted=0 line="  proved     by induction: ${expected#proved } obligations" ;;
+		'unproved '*) wanted=3 line="not known: the induction fails at .${expected#unproved }" ;;
 		*) wanted=none line= ;;
 		esac
 		if [ "$code" = "$wanted" ] && grep -q "^$line" "$output"; then

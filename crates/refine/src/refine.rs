@@ -28,11 +28,13 @@ pub struct Options {
     pub extents: [Extent; 2],
     /// The most pairs of states.
     pub max_pairs: u64,
+    /// The most steps of both machines together; looked at between pairs.
+    pub max_steps: u64,
 }
 
 impl Default for Options {
     fn default() -> Options {
-        Options { extents: Default::default(), max_pairs: u64::MAX }
+        Options { extents: Default::default(), max_pairs: u64::MAX, max_steps: u64::MAX }
     }
 }
 
@@ -136,6 +138,10 @@ fn attempt(
     while next < product.pairs.len() {
         if next as u64 >= options.max_pairs {
             whys.add(Why::Pairs(options.max_pairs));
+            break;
+        }
+        if product.sides.iter().map(|side| side.steps.0).sum::<u64>() >= options.max_steps {
+            whys.add(Why::Steps(options.max_steps));
             break;
         }
         if next.is_multiple_of(64) && !watch(&progress_of(&product, product.pairs.len() - next)) {

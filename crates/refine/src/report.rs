@@ -27,6 +27,8 @@ pub struct Progress {
 pub enum Why {
     /// The limit of pairs was reached.
     Pairs(u64),
+    /// The limit of steps was reached.
+    Steps(u64),
     /// The caller asked to stop, or memory is full.
     Stopped(Cause),
     /// A step of a machine cannot be gone through.

@@ -122,6 +122,7 @@ impl Refinements<'_> {
     pub fn why(&self, why: &Why) -> String {
         match why {
             Why::Pairs(most) => format!("the limit of {most} pairs of states was reached"),
+            Why::Steps(most) => format!("the limit of {most} steps was reached"),
             Why::Stopped(machine::Cause::Memory) => "the limit of memory was reached".to_string(),
             Why::Stopped(machine::Cause::Asked) if self.timed_out => "the time was up".to_string(),
             Why::Stopped(machine::Cause::Asked) => "interrupted".to_string(),

@@ -11,6 +11,9 @@ use solve::shared::{Kind, Node, Script, Terms, VariableId};
 
 use super::proof::{Obligation, Said};
 
+/// Bounds of numbers in which a state to show is searched first.
+const SMALL: [i128; 2] = [9, 999];
+
 /// The values that a solver gave to variables.
 pub(super) type Model = FxHashMap<VariableId, Constant>;
 
@@ -35,7 +38,9 @@ impl Ask<'_, '_> {
         for index in 0..self.solvers.len() {
             let (answer, found) = self.one(terms, index, &script, &variables);
             said.push(answer);
-            model = model.or(found);
+            if let (None, Some(found)) = (&model, found) {
+                model = Some(if sense { found } else { self.plainer(terms, index, &script, &variables, found) });
+            }
             // What one solver says makes sense needs no second one.
             if self.stopped || sense && said.last() == Some(&Said::Possible) && said.len() > 1 {
                 break;
@@ -50,6 +55,28 @@ impl Ask<'_, '_> {
         let variables = terms.variables_of([condition]);
         let script = script(terms, &variables, condition, "", true);
         !self.solvers.is_empty() && self.one(terms, 0, &script, &variables).0 == Said::Possible
+    }
+
+    /// A state of smaller numbers, if there is one: it is easier to read.
+    fn plainer(&mut self, terms: &Terms, index: usize, script: &str, variables: &[VariableId], found: Model) -> Model {
+        let numbers: Vec<VariableId> =
+            variables.iter().copied().filter(|id| terms.variable_of(*id).kind == Kind::Integer).collect();
+        for most in SMALL {
+            let is_small = |id: &VariableId| matches!(found.get(id), Some(Constant::Integer(n)) if n.abs() <= most);
+            if numbers.iter().all(is_small) {
+                break;
+            }
+            let mut small = String::new();
+            for id in &numbers {
+                let name = Script::name(terms, *id, 0);
+                let _ = writeln!(small, "(assert (and (<= (- {most}) {name}) (<= {name} {most})))");
+            }
+            let asked = script.replace("(check-sat)\n", &format!("{small}(check-sat)\n"));
+            if let (Said::Possible, Some(model)) = self.one(terms, index, &asked, variables) {
+                return model;
+            }
+        }
+        found
     }
 
     fn one(&mut self, terms: &Terms, index: usize, script: &str, variables: &[VariableId]) -> (Said, Option<Model>) {

@@ -32,6 +32,8 @@ use symbolic::Store;
 
 /// LIMIT: so many pairs of states are searched for a refutation, if the options say nothing.
 const SEARCHED: u64 = 500;
+/// LIMIT: so many steps are made for it.
+const STEPS: u64 = 20_000;
 /// The solvers and how long they may take.
 pub struct Provers<'s> {
     /// Two of them must accept each obligation.
@@ -56,7 +58,8 @@ pub fn prove(
     provers: Provers<'_>,
     watch: &mut dyn FnMut(&Progress) -> bool,
 ) -> Result<Report, Trouble> {
-    let searched = Options { max_pairs: options.max_pairs.min(SEARCHED), ..options.clone() };
+    let max_pairs = options.max_pairs.min(SEARCHED);
+    let searched = Options { max_pairs, max_steps: options.max_steps.min(STEPS), ..options.clone() };
     let mut report = refine(coupling, &searched, watch)?;
     report.diagrams.clear();
     report.properties.clear();

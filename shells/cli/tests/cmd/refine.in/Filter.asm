@@ -1,9 +1,12 @@
 asm Filter
+
 import StandardLibrary
+
 signature:
 	monitored reading: Integer
 	controlled seen: Integer
 	controlled peak: Integer
+
 definitions:
 	main rule r_Main =
 		if peak < seen then
@@ -15,6 +18,7 @@ definitions:
 		else
 			seen := max(seen, reading)
 		endif
+
 default init s0:
 	function seen = 0
 	function peak = 0
