@@ -71,7 +71,8 @@ impl Refinements<'_> {
             if !used.is_empty() {
                 lines.push(format!("  diagrams   {}", used.join(", ")));
             }
-            let count = plural(accepted, "obligation");
+            let senses = proof.obligations.iter().filter(|obligation| obligation.sense).count();
+            let count = plural(accepted - senses, "obligation");
             lines.push(format!("  proved     by induction: {count}, accepted by {}", joined(&solvers(proof))));
             if let Some(variant) = self.coupling.variant() {
                 lines.push(format!("  variant    {variant}"));
