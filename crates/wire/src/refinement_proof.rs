@@ -14,8 +14,8 @@ pub(crate) struct ProofLine {
     solvers: Vec<String>,
     /// What they were asked, in order.
     obligations: Vec<ObligationLine>,
-    /// The diagrams that answers use: numbers of abstract and of concrete steps.
-    diagrams: Vec<(u32, u32)>,
+    /// The diagrams that answers use.
+    diagrams: Vec<UsedDiagram>,
     /// What decreases while the abstract machine makes no step.
     #[serde(skip_serializing_if = "Option::is_none")]
     variant: Option<String>,
@@ -38,6 +38,14 @@ struct ObligationLine {
     /// What each solver said.
     said: Vec<String>,
     accepted: bool,
+}
+
+/// A diagram: so many steps of each machine.
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+struct UsedDiagram {
+    r#abstract: u32,
+    concrete: u32,
 }
 
 #[derive(Debug, Serialize)]
@@ -89,7 +97,7 @@ impl ProofLine {
         ProofLine {
             solvers: proof.solvers.clone(),
             obligations: proof.obligations.iter().map(line).collect(),
-            diagrams: proof.diagrams.clone(),
+            diagrams: proof.diagrams.iter().map(|(m, n)| UsedDiagram { r#abstract: *m, concrete: *n }).collect(),
             variant: words.coupling.variant(),
             gap: proof.gap.is_some().then(|| words.gap(proof)),
             stuck,
