@@ -38,10 +38,11 @@ fn request(loaded: &Loaded) -> RunRequest {
         limits: Limits::default(),
         options: simulate::Options { history: 10, steps: None, ..simulate::Options::default() },
         inputs: Box::new(|inputs| inputs),
-        asks_inputs: true,
+        asks_inputs: Some(simulate::RandomSource::new(0, simulate::Bounds::default())),
         asks_choices: true,
         paused: true,
         states: true,
+        frozen: false,
         due: job::at_once(),
     }
 }

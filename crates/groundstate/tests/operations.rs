@@ -79,10 +79,11 @@ fn a_report() {
         limits: Limits::default(),
         options: groundstate::simulate::Options { steps: Some(5_000), keep: false, ..Default::default() },
         inputs: Box::new(|inputs| inputs),
-        asks_inputs: false,
+        asks_inputs: None,
         asks_choices: false,
         paused: false,
         states: false,
+        frozen: false,
         due: job::at_once(),
     };
     let (job, _remote) = job::report(request, reporter, asked.sources, Cancel::new()).expect("a thread");

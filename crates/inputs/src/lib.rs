@@ -16,7 +16,7 @@ use std::fmt;
 use std::path::Path;
 
 use program::Program;
-use simulate::{Given, Named, Problem, Steps, Written};
+use simulate::{Given, Named, Problem, Steps, Weighing, Written};
 use syntax::{Diagnostic, FileId, Span};
 
 pub use options::{asked, constants, integers, reals, step_ns, weighted, without_source};
@@ -50,10 +50,10 @@ impl Form {
 pub fn named(program: &Program, form: Form, file: FileId, source: &str) -> Result<Named, Vec<Diagnostic>> {
     let read = match form {
         Form::Yaml => yaml::read(file, source),
-        Form::Csv => table::read(file, source),
+        Form::Csv => table::read(file, source).map(|given| Contents { given, weighings: Vec::new() }),
     };
-    let given = read.map_err(|fault| vec![*fault])?;
-    Named::new(program, &given).map_err(|problems| {
+    let Contents { given, weighings } = read.map_err(|fault| vec![*fault])?;
+    Named::new(program, &given, &weighings).map_err(|problems| {
         let diagnostic = |problem: Problem| {
             let id = if problem.value { "bad-input-value" } else { "unknown-input" };
             Diagnostic::error(id, problem.span, problem.message)
@@ -83,8 +83,15 @@ impl fmt::Display for Refused {
     }
 }
 
-/// What a file gives, or the first thing in it that cannot be read.
-type Read = Result<Vec<Given>, Box<Diagnostic>>;
+/// What a file says.
+#[derive(Debug, Default)]
+struct Contents {
+    given: Vec<Given>,
+    weighings: Vec<Weighing>,
+}
+
+/// What is read of a file, or the first thing in it that cannot be read.
+type Read<T> = Result<T, Box<Diagnostic>>;
 
 fn fault(span: Span, message: impl Into<String>) -> Box<Diagnostic> {
     Box::new(Diagnostic::error("bad-input-file", span, message))

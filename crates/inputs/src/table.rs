@@ -10,7 +10,7 @@ use syntax::{FileId, Span};
 use crate::{Read, fault, steps, text, whole};
 
 /// Reads a table.
-pub fn read(file: FileId, source: &str) -> Read {
+pub fn read(file: FileId, source: &str) -> Read<Vec<Given>> {
     let mut reader =
         ReaderBuilder::new().has_headers(false).flexible(true).comment(Some(b'#')).from_reader(source.as_bytes());
     let mut given = Vec::new();

@@ -6,27 +6,28 @@
 //!   temperature(ROOM1): 21
 //! 3..5:
 //!   passed: true
+//! random: { stop: 1 %, mode: { FAULT: 2 %, SLOW: 10 % } }
 //! ```
 //!
 //! Scalars are taken as they are written, whatever YAML would make of them: the domain of the location decides how they
 //! are read. Sequences are sequences, sets, bags or tuples; mappings are maps.
 
 use saphyr_parser::{Event, Parser, ScanError, Span as Mark};
-use simulate::{Given, Steps, Written};
+use simulate::{Given, Often, Steps, Weighing, Written};
 use syntax::{Diagnostic, FileId, Span};
 
-use crate::{Read, fault, steps, whole};
+use crate::{Contents, Read, fault, steps, whole};
 
 /// Reads a document.
-pub fn read(file: FileId, source: &str) -> Read {
+pub fn read(file: FileId, source: &str) -> Read<Contents> {
     let mut yaml = Yaml { parser: Parser::new_from_str(source), place: Places::new(file, source), depth: 0 };
-    let mut given = Vec::new();
+    let mut contents = Contents::default();
     loop {
         let (event, mark) = yaml.next()?;
         match event {
             Event::StreamStart | Event::DocumentStart(_) | Event::DocumentEnd => {}
-            Event::StreamEnd => return Ok(given),
-            Event::MappingStart(..) => yaml.document(&mut given)?,
+            Event::StreamEnd => return Ok(contents),
+            Event::MappingStart(..) => yaml.document(&mut contents)?,
             // An empty document is one empty scalar.
             Event::Scalar(text, ..) if text.is_empty() || text == "~" => {}
             _ => return Err(fault(yaml.place.span(mark), EXPECTED)),
@@ -35,6 +36,8 @@ pub fn read(file: FileId, source: &str) -> Read {
 }
 
 const EXPECTED: &str = "a mapping of steps to locations is expected, such as `1: { passed: true }`";
+
+const OFTEN: &str = "how often values come is expected, such as `stop: 1 %`, or `mode: { SLOW: 3, FAST: 1 }`";
 
 struct Yaml<'a> {
     parser: Parser<'a, saphyr_parser::StrInput<'a>>,
@@ -60,15 +63,16 @@ impl<'a> Yaml<'a> {
         fault(span, format!("this is not YAML: {}", error.info()))
     }
 
-    fn document(&mut self, given: &mut Vec<Given>) -> Result<(), Box<Diagnostic>> {
+    fn document(&mut self, contents: &mut Contents) -> Result<(), Box<Diagnostic>> {
         loop {
             let (event, mark) = self.next()?;
             let span = self.place.span(mark);
             match event {
                 Event::MappingEnd => return Ok(()),
+                Event::Scalar(key, ..) if key == "random" => self.random(&mut contents.weighings)?,
                 Event::Scalar(key, ..) => {
                     let steps = steps(&key, span)?;
-                    self.step(steps, given)?;
+                    self.step(steps, &mut contents.given)?;
                 }
                 _ => return Err(fault(span, EXPECTED)),
             }
@@ -93,6 +97,61 @@ impl<'a> Yaml<'a> {
                     given.push(Given { steps, location: (name, span), value });
                 }
                 _ => return Err(fault(span, "the name of a location is expected")),
+            }
+        }
+    }
+
+    /// How often values come: a location has a share, or a mapping of values to weights or shares.
+    fn random(&mut self, weighings: &mut Vec<Weighing>) -> Result<(), Box<Diagnostic>> {
+        let (event, mark) = self.next()?;
+        match event {
+            Event::MappingStart(..) => {}
+            Event::Scalar(text, ..) if text.is_empty() || text == "~" => return Ok(()),
+            _ => return Err(fault(self.place.span(mark), OFTEN)),
+        }
+        loop {
+            let (event, mark) = self.next()?;
+            let place = self.place.span(mark);
+            match event {
+                Event::MappingEnd => return Ok(()),
+                Event::Scalar(name, ..) => {
+                    let location = (name.into_owned(), place);
+                    let (event, mark) = self.next()?;
+                    let whole = self.place.span(mark);
+                    let (often, values) = match event {
+                        Event::Scalar(share, ..) if share.trim_end().ends_with('%') => {
+                            (Often::True(share.into_owned()), Vec::new())
+                        }
+                        Event::MappingStart(..) => self.each()?,
+                        _ => return Err(fault(whole, OFTEN)),
+                    };
+                    let whole = match (values.first(), values.last()) {
+                        (Some(first), Some(last)) => Span { end: last.end, ..*first },
+                        _ => whole,
+                    };
+                    weighings.push(Weighing { location, often: (often, whole), values });
+                }
+                _ => return Err(fault(place, "the name of a location is expected")),
+            }
+        }
+    }
+
+    /// Values, each with how often it comes.
+    fn each(&mut self) -> Result<(Often, Vec<Span>), Box<Diagnostic>> {
+        let (mut each, mut places) = (Vec::new(), Vec::new());
+        loop {
+            let (event, mark) = self.next()?;
+            if matches!(event, Event::MappingEnd) {
+                return Ok((Often::Each(each), places));
+            }
+            let begin = self.place.span(mark);
+            let value = self.written(event, begin)?;
+            match self.next()? {
+                (Event::Scalar(often, ..), mark) => {
+                    each.push((value, often.into_owned()));
+                    places.push(Span { end: self.place.span(mark).end, ..begin });
+                }
+                (_, mark) => return Err(fault(self.place.span(mark), OFTEN)),
             }
         }
     }
@@ -180,7 +239,14 @@ mod tests {
 
     fn check(source: &str, expected: &[&str]) {
         let read: Vec<String> = match read(FileId(0), source) {
-            Ok(given) => given.iter().map(|g| format!("{:?} {} = {:?}", g.steps, g.location.0, g.value.0)).collect(),
+            Ok(Contents { given, weighings }) => {
+                let given = given.iter().map(|g| format!("{:?} {} = {:?}", g.steps, g.location.0, g.value.0));
+                let often = |w: &Weighing| {
+                    let places = w.values.iter().map(|span| &source[span.start as usize..span.end as usize]);
+                    format!("{}: {:?} at {:?}", w.location.0, w.often.0, places.collect::<Vec<_>>())
+                };
+                given.chain(weighings.iter().map(often)).collect()
+            }
             Err(fault) => vec![fault.message],
         };
         assert_eq!(read, expected);
@@ -200,6 +266,21 @@ mod tests {
             "2: { s: [1, 2], m: {a: 1} }",
             &["From(2) s = List([Text(\"1\"), Text(\"2\")])", "From(2) m = Entries([(Text(\"a\"), Text(\"1\"))])"],
         );
+    }
+
+    #[test]
+    fn how_often() {
+        check(
+            "random: { stop: 1 %, 'at(A)': { '(1,2)': 3, B: 1 } }",
+            &[
+                "stop: True(\"1 %\") at []",
+                "at(A): Each([(Text(\"(1,2)\"), \"3\"), (Text(\"B\"), \"1\")]) at [\"(1,2): 3\", \"B: 1\"]",
+            ],
+        );
+        check("random: { stop: true }", &[OFTEN]);
+        check("random: [stop]", &[OFTEN]);
+        check("random: { mode: { A: [1] } }", &[OFTEN]);
+        check("random: { stop: [1] }", &[OFTEN]);
     }
 
     #[test]

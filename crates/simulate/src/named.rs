@@ -14,6 +14,7 @@ use syntax::Span;
 use crate::constants::read_input;
 use crate::inputs::{Ask, Source};
 use crate::read::{Written, read_written};
+use crate::weighted::{Misfit, Misplaced, Often, Weighted};
 
 /// The steps for which a value is given; steps count from 1.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -58,6 +59,17 @@ pub struct Given {
     pub value: (Written, Span),
 }
 
+/// How often the values of a location come, as a file says it.
+#[derive(Debug, Clone)]
+pub struct Weighing {
+    /// The text and place of a location, or of a function.
+    pub location: (String, Span),
+    /// How often, and where all of it stands.
+    pub often: (Often, Span),
+    /// The places of the values.
+    pub values: Vec<Span>,
+}
+
 /// What does not fit the model.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Problem {
@@ -75,14 +87,26 @@ pub struct Named {
     from: BTreeMap<Location, BTreeMap<u64, Value>>,
     ranges: BTreeMap<Location, Vec<(u64, u64, Value)>>,
     shared: Vec<Location>,
+    /// What is drawn.
+    weighted: Weighted,
 }
 
 impl Named {
-    /// Reads what a file gives against a program.
+    /// Draws by this seed what the file leaves to chance.
+    pub fn seeded(self, seed: u64) -> Named {
+        Named { weighted: self.weighted.seeded(seed), ..self }
+    }
+
+    /// Whether the file leaves something to chance.
+    pub fn draws(&self) -> bool {
+        !self.weighted.is_empty()
+    }
+
+    /// Reads what a file gives, and what it leaves to chance, against a program.
     ///
     /// # Errors
     /// All that does not fit, in the order of the file.
-    pub fn new(program: &Program, given: &[Given]) -> Result<Named, Vec<Problem>> {
+    pub fn new(program: &Program, given: &[Given], weighings: &[Weighing]) -> Result<Named, Vec<Problem>> {
         let mut named = Named::default();
         let mut problems = Vec::new();
         // Columns of a table repeat a location on every row: each text is read once.
@@ -105,6 +129,17 @@ impl Named {
                 Ok(value) => named.add(location, *steps, value, function.kind == FunctionKind::Shared),
             }
         }
+        for Weighing { location: (location, place), often: (often, whole), values } in weighings {
+            if let Err(Misfit { message, place: about }) = named.weighted.set(program, location, often) {
+                let (span, value) = match about {
+                    Misplaced::Location => (*place, false),
+                    Misplaced::All => (*whole, true),
+                    Misplaced::Value(index) => (values.get(index).copied().unwrap_or(*whole), true),
+                };
+                problems.push(Problem { span, message, value });
+            }
+        }
+        problems.sort_by_key(|problem| problem.span.start);
         if problems.is_empty() { Ok(named) } else { Err(problems) }
     }
 
@@ -146,7 +181,10 @@ impl Named {
 
 impl Source for Named {
     fn input(&mut self, ask: &Ask<'_>) -> Result<Option<Value>, String> {
-        Ok(self.value(&ask.location.to_location(), ask.step).cloned())
+        match self.value(&ask.location.to_location(), ask.step) {
+            Some(value) => Ok(Some(value.clone())),
+            None => self.weighted.input(ask),
+        }
     }
 
     /// A shared location is written when the file says so; in between, the machine may change it.

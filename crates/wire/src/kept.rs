@@ -9,11 +9,16 @@ use crate::Line;
 pub struct Kept(Vec<Line>);
 
 impl Kept {
-    /// Adds a line. A [`Line::Back`] removes the step before it, if there is one.
+    /// Adds a line. A [`Line::Back`] removes what came from its step on.
     pub fn add(&mut self, line: Line) {
         match line {
-            Line::Back { .. } => {
-                if matches!(self.0.last(), Some(Line::Step(_))) {
+            Line::Back { step } => {
+                let is_undone = |line: &Line| match line {
+                    Line::Step(made) | Line::Attempt(made) => made.step >= step,
+                    Line::End(_) => true,
+                    _ => false,
+                };
+                while self.0.last().is_some_and(is_undone) {
                     self.0.pop();
                 }
             }
@@ -40,6 +45,8 @@ mod tests {
         kept.add(Line::Back { step: 1 });
         kept.add(line(r#"{"type":"step","step":1}"#));
         kept.add(line(r#"{"type":"step","step":2}"#));
+        kept.add(line(r#"{"type":"attempt","step":3}"#));
+        kept.add(line(r#"{"type":"end","reason":"violation","steps":2}"#));
         kept.add(Line::Back { step: 2 });
         let left: Vec<String> =
             kept.into_lines().iter().map(|line| serde_json::to_string(line).expect("it is JSON")).collect();

@@ -2,7 +2,7 @@
 //!
 //! In: a proof with the words for it. Out: [`ProofLine`], which stands in the object of the refinement.
 
-use groundstate::refine::{ABSTRACT, CONCRETE, Gap, Proof, Stuck};
+use groundstate::refine::{ABSTRACT, CONCRETE, Differs, Gap, Proof, Stuck};
 use groundstate::tell::{Refinements, said};
 use serde::Serialize;
 
@@ -107,7 +107,7 @@ impl ProofLine {
 
 impl StuckLine {
     fn new(stuck: &Stuck) -> StuckLine {
-        let step = |(inputs, changes): &(Vec<(String, String)>, Vec<(String, String)>)| StuckStep {
+        let step = |(inputs, changes): &(Differs, Differs)| StuckStep {
             inputs: inputs.clone(),
             changes: changes.clone(),
         };

@@ -158,7 +158,7 @@ pub struct State {
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct Step {
-    step: u64,
+    pub(crate) step: u64,
     #[serde(skip_serializing_if = "Pairs::is_empty", default)]
     inputs: Pairs<String>,
     #[serde(skip_serializing_if = "Pairs::is_empty", default)]

@@ -70,10 +70,11 @@ fn step(loaded: &Loaded, steps: u64) -> Result<(), Box<dyn Error>> {
         limits: Limits::default(),
         options: simulate::Options { history: 100, ..simulate::Options::default() },
         inputs: Box::new(|inputs| inputs),
-        asks_inputs: true,
+        asks_inputs: Some(simulate::RandomSource::new(0, simulate::Bounds::default())),
         asks_choices: false,
         paused: true,
         states: false,
+        frozen: false,
         due: job::at_once(),
     };
     let (job, remote) = job::run(request, Cancel::new())?;

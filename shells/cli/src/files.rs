@@ -2,7 +2,7 @@
 
 use std::fs::File;
 use std::io::{self, BufWriter, Read, Write};
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 
 use groundstate::has_ending;
 use groundstate::workspace::{Absent, Files, imported};
@@ -254,6 +254,17 @@ pub fn write_bytes(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
 fn write_all(path: &Path, bytes: &[u8], mut file: Unfinished) -> Result<(), Failure> {
     file.write_all(bytes).map_err(|error| Failure::of_file("write", path, error))?;
     file.finish()
+}
+
+/// The path of a file relative to a folder, as a scenario writes it.
+pub fn relative(file: &Path, folder: &Path) -> String {
+    let whole = |path: &Path| path.canonicalize().unwrap_or_else(|_| path.to_path_buf());
+    let (file, folder) = (whole(file), whole(folder));
+    let (to, from): (Vec<Component>, Vec<Component>) = (file.components().collect(), folder.components().collect());
+    let shared = to.iter().zip(&from).take_while(|(a, b)| a == b).count();
+    let up = from[shared..].iter().map(|_| "..".to_string());
+    let down = to[shared..].iter().map(|part| part.as_os_str().to_string_lossy().into_owned());
+    up.chain(down).collect::<Vec<_>>().join("/")
 }
 
 /// The files that paths mean: a file stands for itself, a folder for all files below it with one of the endings, by

@@ -20,11 +20,11 @@ use crate::check::plural;
 use crate::coverage;
 use crate::exit::Exit;
 use crate::failure::Failure;
-use crate::files::{read_source, write_text};
+use crate::files::{read_source, relative, write_text};
 use crate::interrupt;
 use crate::load::load;
 use crate::shell::Shell;
-use crate::verify::{Bounded, Teller, no_start, relative};
+use crate::verify::{Bounded, Teller, no_start};
 
 /// Arguments of `generate-tests`.
 #[derive(Debug, Args)]

@@ -37,6 +37,7 @@ mod mutate;
 mod new;
 mod overwrite;
 mod progress;
+mod prompt;
 mod refine;
 mod render;
 mod replay;

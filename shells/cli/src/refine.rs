@@ -19,12 +19,11 @@ use syntax::{FileId, SourceFile, Sources};
 
 use crate::exit::Exit;
 use crate::failure::Failure;
-use crate::files::{read_source, write_text};
+use crate::files::{read_source, relative, write_text};
 use crate::interrupt;
 use crate::load::load;
 use crate::shell::Shell;
 use crate::solver::Process;
-use crate::verify::relative;
 use crate::verify::watch::Watch;
 
 /// The time limit for each question to a solver, in seconds.

@@ -5,7 +5,8 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use clap::{Args, ValueEnum};
-use groundstate::job::{self, Cancel, Remote, RunEvent, RunRequest};
+use groundstate::job::{self, Cancel, RunEvent, RunRequest};
+use groundstate::session::Evaluator;
 use groundstate::simulate::{End, Header, Invariants, Options, Record, Violation};
 use groundstate::tell::{Detail, Narrator};
 use groundstate::{Loaded, Overlay};
@@ -17,10 +18,11 @@ use wire::Wire;
 use crate::engine::Engine;
 use crate::exit::Exit;
 use crate::failure::Failure;
-use crate::inputs::{self, Assembled, Prompt, Question};
+use crate::inputs::{self, Asks, Assembled};
 use crate::interrupt;
 use crate::load::load;
 use crate::progress::{Progress, now_and_then};
+use crate::prompt::{Desk, Looking, Saver, Steering};
 use crate::shell::Shell;
 use crate::tracefile::TraceFile;
 
@@ -29,9 +31,12 @@ use crate::tracefile::TraceFile;
 pub struct Arguments {
     /// The model
     model: PathBuf,
-    /// The most steps to make
-    #[arg(long, short = 'n', value_name = "N", default_value_t = 100, value_parser = crate::limits::count, allow_negative_numbers = true)]
-    steps: u64,
+    /// The most steps to make; without it 100, or as many as you like with --interactive
+    #[arg(long, short = 'n', value_name = "N", value_parser = crate::limits::count, allow_negative_numbers = true)]
+    steps: Option<u64>,
+    /// Ask for inputs, and wait where none is asked for: `?` at the prompt says what can be typed. The standard input may be a pipe
+    #[arg(long, short = 'i')]
+    interactive: bool,
     /// Stop when this term holds, the initial state included
     #[arg(long, value_name = "TERM")]
     until: Option<String>,
@@ -60,6 +65,9 @@ pub struct Arguments {
     inputs: inputs::InputArguments,
 }
 
+/// The most steps, unless the user says otherwise.
+const STEPS: u64 = 100;
+
 /// Runs the command.
 pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     let loaded = match load(shell, &arguments.model)? {
@@ -80,21 +88,23 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
             }
         },
     };
-    let Overlay { mut sources, program, .. } = asked;
-    let assembled = inputs::assemble(shell, &arguments.inputs, &mut sources, &program)?;
-    let Assembled { inputs, asks, interactive } = match assembled {
+    let Overlay { mut sources, model, program } = asked;
+    let whom = if arguments.interactive { Asks::Anyone } else { Asks::Terminal };
+    let assembled = inputs::assemble(shell, &arguments.inputs, whom, &mut sources, &program)?;
+    let Assembled { inputs, asks, interactive: has_inputs, draws } = match assembled {
         Ok(assembled) => assembled,
         Err(faults) => {
             shell.diagnostics(&sources, &faults)?;
             return Ok(Exit::World);
         }
     };
-    let header = header(arguments, &program, &loaded.sources);
+    let interactive = has_inputs || arguments.interactive;
+    let header = header(arguments, draws, &program, &loaded.sources);
     let mut trace = match &arguments.trace {
         Some(path) => Some(TraceFile::create(path, interactive)?),
         None => None,
     };
-    let told = shell.json() || shell.talks() && arguments.show != Show::None || trace.is_some();
+    let told = interactive || shell.json() || shell.talks() && arguments.show != Show::None || trace.is_some();
     let options = Options {
         until,
         keep: told,
@@ -115,26 +125,36 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
         inputs,
         asks_inputs: asks,
         asks_choices: false,
-        paused: false,
-        states: interactive || shell.talks() && arguments.show == Show::All,
+        paused: interactive,
+        states: shell.talks() && arguments.show == Show::All,
+        frozen: interactive,
         due: if interactive { job::at_once() } else { now_and_then() },
     };
     let started = job::run(request, Cancel::from(interrupt::request().clone()));
     let (job, remote) = started.map_err(|error| Failure::usage(format!("the run cannot be started: {error}")))?;
     let busy = interactive || shell.global.quiet || std::io::IsTerminal::is_terminal(&std::io::stdout());
-    let mut progress = Progress::new(Some(arguments.steps), busy);
+    let mut progress = Progress::new(header.steps, busy);
     let mut exit = Exit::Good;
-    let mut desk = Desk::new(&program, &remote);
+    let steering = interactive.then(|| {
+        let limits = shell.global.limits.machine();
+        let evaluator = Evaluator::new(&sources, &model, &program, limits.clone());
+        let narrator = Narrator::new(&program, Detail::Changed, None, false);
+        let max_file_size = shell.global.limits.max_file_size;
+        let saver = Saver { model: arguments.model.clone(), limits, max_file_size };
+        let looking = Looking::new(&program, narrator, evaluator);
+        Steering { looking, saver, waits: arguments.interactive, has_inputs }
+    });
+    let mut desk = Desk::new(&program, &remote, steering);
     while let Some(event) = job.next_event() {
         match event {
-            RunEvent::Record { record, steps, state, faults } => {
+            RunEvent::Record { record, steps, state, frozen, faults } => {
                 if let Some(trace) = &mut trace {
                     trace.write(&teller.wire.record(&record, steps))?;
                 }
                 exit = exit.max(teller.tell(shell, &record, steps, state.as_deref(), &faults)?);
                 if interactive {
-                    teller.show(&mut desk.prompt, &record, state.as_deref());
                     shell.flush()?;
+                    desk.note(&record, steps, frozen.as_ref(), teller.updates(&record));
                 }
                 progress.at(steps);
             }
@@ -150,52 +170,19 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     Ok(exit)
 }
 
-/// The terminal that a run asks for inputs and choices.
-pub struct Desk<'a> {
-    program: &'a Program,
-    remote: &'a Remote,
-    pub prompt: Prompt,
-    question: Option<Question>,
-}
-
-impl<'a> Desk<'a> {
-    pub fn new(program: &'a Program, remote: &'a Remote) -> Desk<'a> {
-        Desk { program, remote, prompt: Prompt::default(), question: None }
-    }
-
-    /// Answers what a run asks. After its end a run hears no answer.
-    pub fn hear(&mut self, event: RunEvent) {
-        match event {
-            RunEvent::AsksInput { step, location, domain, values, .. } => {
-                self.question = Some(Question { step, location, domain, values });
-            }
-            RunEvent::Refused(_) => self.prompt.refused(self.program),
-            RunEvent::Record { .. }
-            | RunEvent::Progress(_)
-            | RunEvent::AsksChoice { .. }
-            | RunEvent::Said { .. }
-            | RunEvent::Paused => return,
-        }
-        if let Some(question) = &self.question {
-            let _ = self.remote.send(self.prompt.ask(self.program, question));
-        }
-    }
-}
-
 pub fn no_main(shell: &mut Shell, loaded: &Loaded) -> Result<Exit, Failure> {
     shell.diagnostic(&loaded.sources, &groundstate::diagnose_no_main(&loaded.model))?;
     Ok(Exit::Model)
 }
 
-fn header(arguments: &Arguments, program: &Program, sources: &Sources) -> Header {
+fn header(arguments: &Arguments, draws: bool, program: &Program, sources: &Sources) -> Header {
     let inputs = &arguments.inputs;
-    let random = inputs.random || inputs.choose == inputs::Chosen::Random;
     Header {
         model: program.name.clone(),
         path: arguments.model.display().to_string(),
         source: groundstate::fingerprint(sources),
-        seed: random.then_some(inputs.seed),
-        steps: Some(arguments.steps),
+        seed: draws.then_some(inputs.seed),
+        steps: arguments.steps.or((!arguments.interactive).then_some(STEPS)),
         stop_on_empty: arguments.stop_on_empty,
         stop_on_trivial: arguments.stop_on_trivial,
         until: arguments.until.clone(),
@@ -275,13 +262,12 @@ impl<'a> Teller<'a> {
         self.narrator.wants_state()
     }
 
-    /// Lets the prompt show the state.
-    fn show(&self, prompt: &mut Prompt, record: &Record, state: Option<&[(Location, Value)]>) {
-        prompt.state = self.narrator.state(state.unwrap_or_default());
-        prompt.updates = match record {
+    /// What a record changed, for the prompt.
+    fn updates(&self, record: &Record) -> String {
+        match record {
             Record::Step(step) => self.narrator.updates(step),
             _ => String::new(),
-        };
+        }
     }
 
     fn is_input(&self, location: &Location) -> bool {

@@ -18,6 +18,7 @@ mod lsp_bad_input;
 mod lsp_disorder;
 mod lsp_recorded;
 mod owed;
+mod prompt;
 mod proofs;
 mod refinements;
 mod schema;

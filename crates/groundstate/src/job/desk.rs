@@ -6,13 +6,14 @@
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use std::rc::Rc;
+use std::sync::Arc;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender};
 use std::time::Duration;
 
-use machine::{Choice, Location, Show, Value};
+use machine::{Choice, Location, Show, Snapshot, Value};
 use model::Basic;
 use program::{DomainId, DomainKind, Program};
-use simulate::{Ask, Chooser, Record, Signal, Source, read_value};
+use simulate::{Ask, Chooser, RandomSource, Record, Signal, Source, read_value};
 use syntax::{Diagnostic, Span};
 
 use crate::job::Port;
@@ -36,6 +37,8 @@ pub enum Command {
     Back,
     /// Give the requested input this value, once.
     Answer(Value),
+    /// Draw the requested input at random, by the seed of the run.
+    Draw,
     /// Refuse the requested input: a fault, with this sentence.
     Withhold(String),
     /// Give an input this value from now on.
@@ -46,6 +49,17 @@ pub enum Command {
     Choose(usize),
     /// End the run.
     Stop,
+}
+
+/// A whole state, in which terms can be evaluated while the run goes on.
+#[derive(Debug, Clone)]
+pub struct Frozen(pub(crate) Arc<Snapshot>);
+
+/// It is the same only if it is the same copy.
+impl PartialEq for Frozen {
+    fn eq(&self, other: &Frozen) -> bool {
+        Arc::ptr_eq(&self.0, &other.0)
+    }
 }
 
 /// An event of a run.
@@ -59,6 +73,8 @@ pub enum RunEvent {
         steps: u64,
         /// The state after it, if requested.
         state: Option<Vec<(Location, Value)>>,
+        /// The same, to evaluate terms in.
+        frozen: Option<Frozen>,
         /// What is wrong: a violated invariant, a fault.
         faults: Vec<Diagnostic>,
     },
@@ -206,7 +222,7 @@ impl Desk {
             Command::Back => return Some(Do::Back),
             Command::Stop => return Some(Do::Stop),
             Command::Choose(_) => self.port.tell(RunEvent::Refused("no choice is asked for".to_string())),
-            Command::Answer(_) | Command::Withhold(_) => {
+            Command::Answer(_) | Command::Draw | Command::Withhold(_) => {
                 self.port.tell(RunEvent::Refused("no input is asked for".to_string()))
             }
         }
@@ -265,12 +281,19 @@ impl Source for Given {
 /// Asks for inputs that no source has, and for choices.
 pub(crate) struct Asking {
     desk: Rc<RefCell<Desk>>,
+    /// Draws what is to be drawn.
+    random: Option<RandomSource>,
     signal: Option<Signal>,
 }
 
 impl Asking {
     pub fn at(desk: &Rc<RefCell<Desk>>) -> Asking {
-        Asking { desk: Rc::clone(desk), signal: None }
+        Asking { desk: Rc::clone(desk), random: None, signal: None }
+    }
+
+    /// Inputs may also be drawn.
+    pub fn drawing(self, random: RandomSource) -> Asking {
+        Asking { random: Some(random), ..self }
     }
 
     fn stop(&mut self, signal: Signal) -> String {
@@ -295,6 +318,10 @@ impl Source for Asking {
                 Waited::Command(Command::Back) => return Err(self.stop(desk.left())),
                 Waited::Command(Command::Withhold(why)) => return Err(why),
                 Waited::Command(Command::Answer(value)) if ask.admits(&value) => return Ok(Some(value)),
+                Waited::Command(Command::Draw) => match &mut self.random {
+                    Some(random) => return random.input(ask),
+                    None => desk.port.tell(RunEvent::Refused("no inputs are drawn here".to_string())),
+                },
                 Waited::Command(Command::Set(at, value)) if at == location && ask.admits(&value) => {
                     desk.given.insert(at, value.clone());
                     return Ok(Some(value));

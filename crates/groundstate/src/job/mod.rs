@@ -29,7 +29,7 @@ pub use conform::{
     Agreed, ConformEvent, ConformJob, ConformRequest, Conformed, Events, LastPhase, NoTail, NotConformed, Piece, Tail,
     conform,
 };
-pub use desk::{Command, Remote, RunEvent};
+pub use desk::{Command, Frozen, Remote, RunEvent};
 pub use generate::{
     Folder, GenerateEvent, GenerateJob, NotGenerated, generate_model, generate_system, machine_of_component,
 };

@@ -15,11 +15,11 @@ use std::sync::mpsc::{Receiver, channel};
 
 use machine::{Interrupt, Limits};
 use program::Program;
-use simulate::{Choices, End, Inputs, Options, Record, Run};
+use simulate::{Choices, End, Inputs, Options, RandomSource, Record, Run};
 use syntax::Sources;
 
 use crate::diagnose_record;
-use crate::job::desk::{Asking, Command, Desk, Do, Given, Remote, RunEvent, Turn};
+use crate::job::desk::{Asking, Command, Desk, Do, Frozen, Given, Remote, RunEvent, Turn};
 use crate::job::{Cancel, Job, Port};
 use crate::reporting::Reporter;
 
@@ -33,14 +33,17 @@ pub struct RunRequest {
     pub options: Options,
     /// Adds sources of inputs, which are asked after those set by [`Command::Set`]. Called on the job's thread.
     pub inputs: Box<dyn FnOnce(Inputs) -> Inputs + Send>,
-    /// Whether to ask for inputs that no source has; otherwise such an input is a fault.
-    pub asks_inputs: bool,
+    /// Whether to ask for inputs that no source has, and how those are drawn that [`Command::Draw`] leaves to chance; otherwise such an
+    /// input is a fault.
+    pub asks_inputs: Option<RandomSource>,
     /// Whether to ask for choices, instead of making them as `inputs` says.
     pub asks_choices: bool,
     /// Whether to wait for a command before the first step.
     pub paused: bool,
     /// Whether each event contains the whole state.
     pub states: bool,
+    /// Whether each event contains the state as one in which terms can be evaluated.
+    pub frozen: bool,
     /// Called after each record: whether to send it now rather than with later ones. The clock is the shell's. Use
     /// [`at_once`] to send each record immediately.
     pub due: Box<dyn FnMut() -> bool + Send>,
@@ -97,13 +100,14 @@ fn go(
     interrupt: Interrupt,
     follow: &mut dyn FnMut(&Record, &mut Run),
 ) -> u64 {
-    let RunRequest { program, limits, options, inputs, asks_inputs, asks_choices, paused, states, mut due } = request;
+    let RunRequest { program, limits, options, inputs, asks_inputs, asks_choices, paused, states, frozen, mut due } =
+        request;
     let is_told = options.keep;
     let turn = if paused { Turn::Steps(0) } else { Turn::All };
     let desk = Rc::new(RefCell::new(Desk::new(Rc::clone(&port), commands, turn)));
     let mut sources = inputs(Inputs::new().with(Given(Rc::clone(&desk))));
-    if asks_inputs {
-        sources = sources.with(Asking::at(&desk));
+    if let Some(random) = asks_inputs {
+        sources = sources.with(Asking::at(&desk).drawing(random));
     }
     if asks_choices {
         sources = sources.choosing(Choices::asked(Asking::at(&desk)));
@@ -134,13 +138,14 @@ fn go(
         follow(&record, &mut run);
         let faults = diagnose_record(&record, &mut run);
         let state = states.then(|| run.machine().locations());
+        let frozen = frozen.then(|| Frozen(Arc::new(run.machine().snapshot())));
         if let (Record::End(_), Turn::Steps(steps)) = (&record, &mut desk.borrow_mut().turn) {
             // Stay paused at the end of a run made step by step, so that the last step can be taken back.
             *steps = 0;
         }
         let is_due = due();
         if is_told || !faults.is_empty() || !matches!(record, Record::Step(_)) {
-            port.add(RunEvent::Record { record: Box::new(record), steps: run.steps(), state, faults }, is_due);
+            port.add(RunEvent::Record { record: Box::new(record), steps: run.steps(), state, frozen, faults }, is_due);
         } else if is_due {
             port.mention(RunEvent::Progress(run.steps()));
         }

@@ -37,6 +37,7 @@ pub use breaks::{Break, Breaks, Count, Hit, On, Piece};
 pub use evaluate::Evaluator;
 pub use moment::Moment;
 pub use scene::Scene;
+pub use written::Notes;
 
 use shared::Shared;
 

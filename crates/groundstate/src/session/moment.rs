@@ -9,6 +9,7 @@ use machine::{Change, Coverage, Location, Snapshot, Value};
 use program::{Program, Rule, RuleId};
 use syntax::{Diagnostic, Span};
 
+use crate::job::desk::Frozen;
 use crate::session::breaks::Hit;
 
 /// See the module.
@@ -45,8 +46,18 @@ pub struct Moment {
 }
 
 impl Moment {
+    /// The moment after so many steps of a run, the last of which took these inputs.
+    pub fn after(step: u64, state: &Frozen, inputs: Vec<(Location, Value)>) -> Moment {
+        let snapshot = Arc::clone(&state.0);
+        Moment { step, inputs, ..Moment::with(snapshot) }
+    }
+
     /// A moment at which nothing has happened.
     pub(crate) fn new(snapshot: Snapshot) -> Moment {
+        Moment::with(Arc::new(snapshot))
+    }
+
+    fn with(snapshot: Arc<Snapshot>) -> Moment {
         Moment {
             step: 0,
             ran_now: true,
@@ -61,7 +72,7 @@ impl Moment {
             checks: (0, 0),
             hit: None,
             reached: BTreeMap::new(),
-            snapshot: Arc::new(snapshot),
+            snapshot,
         }
     }
 

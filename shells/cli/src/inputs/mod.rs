@@ -1,9 +1,7 @@
-//! Sources of inputs: options, files and the terminal.
+//! Sources of inputs: options and files. Those that are asked for come from the prompt.
 //!
 //! This crate declares the options and reads the files; `groundstate::inputs` interprets them.
 
 mod options;
-mod prompt;
 
-pub use options::{Assembled, Chosen, HELP, InputArguments, assemble};
-pub use prompt::{Prompt, Question};
+pub use options::{Asks, Assembled, Chosen, HELP, InputArguments, assemble};

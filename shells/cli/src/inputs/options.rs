@@ -135,29 +135,46 @@ impl Clock for SystemClock {
 pub struct Assembled {
     /// Adds the sources.
     pub inputs: Sourcing,
-    /// Whether inputs that no source has are asked for at the terminal.
-    pub asks: bool,
-    /// Whether the model has inputs that may be asked for, so that steps can be taken back.
+    /// Draws the inputs that no source has and that are asked for, if the prompt leaves them to chance; none: they are not asked for.
+    pub asks: Option<RandomSource>,
+    /// Whether the model has inputs that may be asked for.
     pub interactive: bool,
+    /// Whether the seed decides something.
+    pub draws: bool,
 }
 
 /// Adds sources to the present ones.
 pub type Sourcing = Box<dyn FnOnce(Inputs) -> Inputs + Send>;
 
+/// Whom the inputs are asked of that no source has.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Asks {
+    /// The terminal, if there is one.
+    Terminal,
+    /// Whoever writes to the standard input.
+    Anyone,
+}
+
 /// Makes the sources. Faults in input files are returned as diagnostics over `sources`, to which the files are added.
 pub fn assemble(
     shell: &Shell,
     arguments: &InputArguments,
+    asks: Asks,
     sources: &mut Sources,
     program: &Program,
 ) -> Result<Result<Assembled, Vec<Diagnostic>>, Failure> {
     let mut layers: Vec<Sourcing> = Vec::new();
+    let mut draws = arguments.random || arguments.choose == Chosen::Random;
     let constants = inputs::constants(program, &arguments.set);
     let constants = constants.map_err(|refused| Failure::usage(format!("--set {refused}")))?;
     layers.push(Box::new(|inputs| inputs.with(constants)));
     if let Some(path) = &arguments.input {
         match named(shell, path, sources, program)? {
-            Ok(named) => layers.push(Box::new(|inputs| inputs.with(named))),
+            Ok(named) => {
+                draws |= named.draws();
+                let named = named.seeded(arguments.seed);
+                layers.push(Box::new(|inputs| inputs.with(named)));
+            }
             Err(faults) => return Ok(Err(faults)),
         }
     }
@@ -166,14 +183,15 @@ pub fn assemble(
         let positional = Positional::new(&path.display().to_string(), &text);
         layers.push(Box::new(|inputs| inputs.with(positional)));
     }
-    let (mut asks, mut interactive) = (false, false);
+    let (mut asked, mut interactive) = (None, false);
+    let random = || RandomSource::new(arguments.seed, arguments.bounds.bounds());
     if arguments.random {
         let weighted = inputs::weighted(program, arguments.seed, &arguments.weight);
         let weighted = weighted.map_err(|refused| Failure::usage(format!("--weight {refused}")))?;
-        let random = RandomSource::new(arguments.seed, arguments.bounds.bounds());
+        let random = random();
         layers.push(Box::new(|inputs| inputs.with(weighted).with(random)));
-    } else if std::io::stdin().is_terminal() {
-        (asks, interactive) = (true, !inputs::asked(program).is_empty());
+    } else if asks == Asks::Anyone || std::io::stdin().is_terminal() {
+        (asked, interactive) = (Some(random()), !inputs::asked(program).is_empty());
     } else if arguments.input.is_none()
         && arguments.env.is_none()
         && arguments.set.is_empty()
@@ -188,7 +206,7 @@ pub fn assemble(
         Ticking::System => inputs.timed_by(SystemClock),
     }));
     let inputs: Sourcing = Box::new(|inputs| layers.into_iter().fold(inputs, |inputs, layer| layer(inputs)));
-    Ok(Ok(Assembled { inputs, asks, interactive }))
+    Ok(Ok(Assembled { inputs, asks: asked, interactive, draws }))
 }
 
 /// What to do if inputs are missing.

@@ -24,11 +24,11 @@ use syntax::{SourceFile, Sources};
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::files::{read_text, write_text};
-use crate::inputs::{self, Assembled};
+use crate::inputs::{self, Asks, Assembled};
 use crate::interrupt;
 use crate::load::load;
 use crate::progress::{Progress, now_and_then};
-use crate::run::Desk;
+use crate::prompt::Desk;
 use crate::shell::Shell;
 
 /// The format of a specification.
@@ -132,13 +132,14 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     let mut asked = loaded.overlay();
     let Some(reporter) = prepare(shell, &mut asked, wanted, &path)? else { return Ok(Exit::World) };
     let Overlay { mut sources, program, .. } = asked;
-    let Assembled { inputs, asks, .. } = match inputs::assemble(shell, &arguments.inputs, &mut sources, &program)? {
-        Ok(assembled) => assembled,
-        Err(faults) => {
-            shell.diagnostics(&sources, &faults)?;
-            return Ok(Exit::World);
-        }
-    };
+    let Assembled { inputs, asks, draws, .. } =
+        match inputs::assemble(shell, &arguments.inputs, Asks::Terminal, &mut sources, &program)? {
+            Ok(assembled) => assembled,
+            Err(faults) => {
+                shell.diagnostics(&sources, &faults)?;
+                return Ok(Exit::World);
+            }
+        };
     let options =
         Options { steps: Some(arguments.steps), invariants: Invariants::Report, keep: false, ..Options::default() };
     interrupt::listen();
@@ -151,12 +152,13 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
         asks_choices: false,
         paused: false,
         states: false,
+        frozen: false,
         due: now_and_then(),
     };
     let started = job::report(request, reporter, sources.clone(), Cancel::from(interrupt::request().clone()));
     let (job, remote) = started.map_err(|error| Failure::usage(format!("the run cannot be started: {error}")))?;
     let mut progress = Progress::new(Some(arguments.steps), shell.global.quiet);
-    let mut desk = Desk::new(&program, &remote);
+    let mut desk = Desk::new(&program, &remote, None);
     while let Some(event) = job.next_event() {
         match event {
             RunEvent::Record { steps, .. } | RunEvent::Progress(steps) => progress.at(steps),
@@ -171,7 +173,7 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
         (false, false) => Exit::Good,
     };
     let mut report = reporter.finish();
-    report.facts = facts(arguments, &origin, &sources);
+    report.facts = facts(arguments, draws, &origin, &sources);
     let scenarios = evidence::add(shell, &mut report, &arguments.model, &arguments.scenarios, arguments.inputs.seed)?;
     write(shell, arguments, &report)?;
     let troubled = if report.troubles().is_empty() { Exit::Good } else { Exit::Model };
@@ -239,10 +241,9 @@ fn prepare(
     Ok(reporter)
 }
 
-fn facts(arguments: &Arguments, spec: &str, sources: &Sources) -> Vec<Fact> {
+fn facts(arguments: &Arguments, draws: bool, spec: &str, sources: &Sources) -> Vec<Fact> {
     let fact = |label: &str, value: String| Fact { label: label.to_string(), value };
     let inputs = &arguments.inputs;
-    let random = inputs.random || inputs.choose == inputs::Chosen::Random;
     let mut facts = vec![
         fact("Model", arguments.model.display().to_string()),
         fact("Report specification", spec.to_string()),
@@ -253,7 +254,7 @@ fn facts(arguments: &Arguments, spec: &str, sources: &Sources) -> Vec<Fact> {
             if inputs.choose == inputs::Chosen::Random { "random" } else { "the first candidate" }.to_string(),
         ),
     ];
-    if random {
+    if draws {
         facts.push(fact("Seed", inputs.seed.to_string()));
     }
     facts.push(fact("Groundstate", env!("CARGO_PKG_VERSION").to_string()));

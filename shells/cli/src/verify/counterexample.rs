@@ -2,7 +2,7 @@
 //! report specification beside the model.
 
 use std::io::Write;
-use std::path::{Component, Path, PathBuf};
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use groundstate::Overlay;
@@ -14,7 +14,7 @@ use syntax::Sources;
 use wire::Wire;
 
 use crate::failure::Failure;
-use crate::files::{Unfinished, write_text};
+use crate::files::{Unfinished, relative, write_text};
 use crate::report::page_of;
 use crate::shell::Shell;
 use crate::tracefile::TraceFile;
@@ -200,17 +200,6 @@ fn another(name: String, names: &mut Vec<String>) -> String {
     let free = (1..).map(numbered).find(|name| !names.contains(name)).unwrap_or_default();
     names.push(free.clone());
     free
-}
-
-/// The path of a file relative to a folder, as a scenario writes it.
-pub fn relative(file: &Path, folder: &Path) -> String {
-    let whole = |path: &Path| path.canonicalize().unwrap_or_else(|_| path.to_path_buf());
-    let (file, folder) = (whole(file), whole(folder));
-    let (to, from): (Vec<Component>, Vec<Component>) = (file.components().collect(), folder.components().collect());
-    let shared = to.iter().zip(&from).take_while(|(a, b)| a == b).count();
-    let up = from[shared..].iter().map(|_| "..".to_string());
-    let down = to[shared..].iter().map(|part| part.as_os_str().to_string_lossy().into_owned());
-    up.chain(down).collect::<Vec<_>>().join("/")
 }
 
 #[cfg(test)]

@@ -40,7 +40,6 @@ use crate::shell::Shell;
 use crate::solver::Process;
 pub use bounded::Bounded;
 use checkpoint::Checkpoint;
-pub use counterexample::relative;
 use disk::Folder;
 use live::Live;
 pub use tell::Teller;

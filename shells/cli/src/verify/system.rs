@@ -26,7 +26,7 @@ use super::watch::Watch;
 use super::{Arguments, Engine, Storage, conflict};
 use crate::exit::Exit;
 use crate::failure::Failure;
-use crate::files::write_text;
+use crate::files::{relative, write_text};
 use crate::interrupt;
 use crate::shell::Shell;
 
