@@ -129,13 +129,13 @@ impl Refinements<'_> {
         for (number, (inputs, changes)) in stuck.steps.iter().enumerate() {
             let mut what: Vec<String> = inputs.iter().map(|(name, value)| format!("in {name} = {value}")).collect();
             what.extend(changes.iter().map(|(name, value)| format!("{name} becomes {value}")));
-            let last = number + 1 == stuck.steps.len() && stuck.fault.is_some();
-            if what.is_empty() && !last {
+            let is_last = number + 1 == stuck.steps.len();
+            what.extend(stuck.fault.iter().filter(|_| is_last).map(|fault| format!("it comes to {fault}")));
+            if what.is_empty() {
                 what.push("no change".to_string());
             }
             lines.push(format!("  step {} of the concrete machine: {}", number + 1, what.join(", ")));
         }
-        lines.extend(stuck.fault.iter().map(|fault| format!("  comes to {fault}")));
         lines.extend(stuck.tried.iter().map(|attempt| format!("  {}", tried(attempt))));
         if stuck.tried.is_empty() && stuck.fault.is_none() {
             lines.push("  the abstract machine has no step that could answer".to_string());
@@ -163,7 +163,7 @@ fn tried(attempt: &Attempt) -> String {
         m => format!("if the abstract machine makes {m} steps"),
     };
     match &attempt.parts[..] {
-        [] if attempt.stands => format!("{what}, all corresponds, but nothing says that it goes on some time"),
+        [] if attempt.stands => format!("{what}, all corresponds, but nothing says that it ever moves again"),
         [] => format!("{what}, it cannot be made"),
         parts => {
             let parts: Vec<String> = parts.iter().map(|part| format!("`{part}`")).collect();

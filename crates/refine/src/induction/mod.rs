@@ -69,7 +69,8 @@ pub fn prove(
         Verdict::Unknown(whys) if whys.iter().any(is_interrupted) => return Ok(report),
         Verdict::Refines | Verdict::Unknown(_) => {}
     }
-    report.idle &= report.progress.queue == 0;
+    // The search before a proof may not have come to the steps that matter.
+    report.idle = false;
     let mut proof = Proof::default();
     let Provers { solvers, seconds } = provers;
     for solver in &solvers {
