@@ -105,12 +105,14 @@ impl ProofLine {
     }
 }
 
+impl StuckStep {
+    fn new((inputs, changes): &(Differs, Differs)) -> StuckStep {
+        StuckStep { inputs: inputs.clone(), changes: changes.clone() }
+    }
+}
+
 impl StuckLine {
     fn new(stuck: &Stuck) -> StuckLine {
-        let step = |(inputs, changes): &(Differs, Differs)| StuckStep {
-            inputs: inputs.clone(),
-            changes: changes.clone(),
-        };
         let attempt = |attempt: &groundstate::refine::Attempt| AttemptLine {
             steps: attempt.m,
             fails: attempt.parts.clone(),
@@ -119,7 +121,7 @@ impl StuckLine {
         StuckLine {
             r#abstract: stuck.states[ABSTRACT].clone(),
             concrete: stuck.states[CONCRETE].clone(),
-            steps: stuck.steps.iter().map(step).collect(),
+            steps: stuck.steps.iter().map(StuckStep::new).collect(),
             fault: stuck.fault.clone(),
             tried: stuck.tried.iter().map(attempt).collect(),
         }

@@ -45,7 +45,8 @@ fn both_solvers_prove() {
     assert_eq!(files.len(), 6, "{files:?}");
     for file in files {
         let script = std::fs::read_to_string(&file).expect("a script");
-        let wanted = script.lines().find_map(|line| line.strip_prefix("; accepted if the answer is ")).expect("it says");
+        let wanted =
+            script.lines().find_map(|line| line.strip_prefix("; accepted if the answer is ")).expect("it says");
         for solver in ["z3", "cvc5"] {
             let output = Command::new(solver).arg(&file).output().expect("it starts");
             assert_eq!(String::from_utf8_lossy(&output.stdout).trim(), wanted, "{solver} {}", file.display());
