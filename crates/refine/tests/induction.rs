@@ -374,7 +374,6 @@ fn the_search_says_the_same_of_random_machines() {
         }
     }
     let all = cases.count();
-    // Proved; not proved though it refines; wrong and not proved; vacuous.
     assert!(counts[0] * 8 > all && counts[2] * 8 > all, "{counts:?}");
 }
 
