@@ -199,8 +199,18 @@ definitions:
 			endif
 		endpar
 
+	// By itself it gets an image whenever it has taken the one before.
 	main rule r_Main =
-		forall $c in Controller with true do r_visualServoing[$c]
+		par
+			if not isNew then
+				choose $image in Image with true do
+					par
+						offered := $image
+						isNew := true
+					endpar
+			endif
+			forall $c in Controller with true do r_visualServoing[$c]
+		endpar
 
 default init s0:
 	function vsState($c in Controller) = WAITING
