@@ -20,7 +20,7 @@ use program::{Expression, Program, PropertyKind};
 use syntax::Sources;
 
 use super::beside::beside;
-use super::counterexample::{named, relative, with_invariant};
+use super::counterexample::{named, with_invariant};
 use super::tell::{Scripts, Teller};
 use super::watch::Watch;
 use super::{Arguments, Engine, Storage, conflict};
