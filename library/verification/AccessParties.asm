@@ -44,6 +44,7 @@ signature:
 	derived asMaster: Boolean
 	derived otherReads: Boolean
 	derived otherIsMaster: Boolean
+	derived otherState: TaskCSState
 
 definitions:
 	domain Patience = {0 : 2}
@@ -62,6 +63,9 @@ definitions:
 
 	function otherIsMaster =
 		not asMaster
+
+	function otherState =
+		sem_state(lock, other_task)
 
 	rule r_otherAsks =
 		par
@@ -109,7 +113,7 @@ definitions:
 		endpar
 
 	rule r_other =
-		switch sem_state(lock, other_task)
+		switch otherState
 			case READY:
 				if otherActs then
 					r_otherAsks[]
