@@ -13,7 +13,7 @@ use std::collections::BTreeMap;
 
 use groundstate::job::{Command, Frozen, Remote, RunEvent};
 use groundstate::session::Notes;
-use groundstate::simulate::{Record, read_value};
+use groundstate::simulate::{End, Record, read_value};
 use machine::{Location, Show, Value};
 use program::{DomainId, Expression, Program};
 
@@ -90,6 +90,8 @@ pub struct Desk<'a> {
     /// The next step is made without waiting for a line.
     flows: bool,
     ended: bool,
+    /// Its user has left it.
+    leaves: bool,
 }
 
 impl<'a> Desk<'a> {
@@ -110,6 +112,7 @@ impl<'a> Desk<'a> {
             has_asked: false,
             flows,
             ended: false,
+            leaves: false,
         }
     }
 
@@ -127,7 +130,10 @@ impl<'a> Desk<'a> {
             Record::Back { .. } => {
                 (self.flows, self.asked, self.ended, self.pace) = (steering.has_inputs, false, false, Pace::Asks);
             }
-            Record::End(_) => (self.ended, self.pace) = (true, Pace::Asks),
+            Record::End(end) => {
+                (self.ended, self.pace) = (true, Pace::Asks);
+                self.leaves = matches!(end, End::Quit | End::Interrupted);
+            }
             Record::Initial { .. } | Record::Attempt(_) => self.asked = false,
         }
     }
@@ -175,7 +181,7 @@ impl<'a> Desk<'a> {
     fn go_on(&mut self) {
         let waits = self.steering.as_ref().is_some_and(|steering| steering.waits);
         if self.ended {
-            return if waits || self.has_asked { self.converse() } else { self.send(Command::Stop) };
+            return if !self.leaves && (waits || self.has_asked) { self.converse() } else { self.send(Command::Stop) };
         }
         match &self.pace {
             Pace::Asks if !waits || self.flows => self.send(Command::Step(1)),
