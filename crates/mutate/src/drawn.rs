@@ -5,8 +5,8 @@
 //! of another one.
 
 use syntax::ast::{
-    AstNode, ChannelKind, ChartFile, Component, ComponentKind, MachineChart, PathStop, Phase, PhaseKind, Quantity, Shape,
-    SystemChart,
+    AstNode, ChannelKind, ChartFile, Component, ComponentKind, MachineChart, PathStop, Phase, PhaseKind, Quantity,
+    Shape, SystemChart,
 };
 use syntax::{FileId, SyntaxKind, SyntaxNode, SyntaxToken};
 
@@ -38,7 +38,8 @@ struct Made<'t> {
 }
 
 fn range(node: &SyntaxNode) -> std::ops::Range<usize> {
-    let first = node.descendants_with_tokens().filter_map(|part| part.into_token()).find(|token| !token.kind().is_trivia());
+    let first =
+        node.descendants_with_tokens().filter_map(|part| part.into_token()).find(|token| !token.kind().is_trivia());
     let start = first.map_or(node.text_range().start(), |token| token.text_range().start());
     let tokens = node.descendants_with_tokens().filter_map(|part| part.into_token());
     let end = tokens.filter(|token| !token.kind().is_trivia()).last();
@@ -95,7 +96,9 @@ impl Made<'_> {
     /// Lets an arrow end at another shape of the same kind.
     fn redirect(&mut self, shapes: &[Shape], stop: &PathStop, is_last: bool) {
         let Some(name) = stop.name() else { return };
-        let Some(index) = shapes.iter().position(|shape| name_of(shape).as_deref() == Some(name.text())) else { return };
+        let Some(index) = shapes.iter().position(|shape| name_of(shape).as_deref() == Some(name.text())) else {
+            return;
+        };
         let kind = std::mem::discriminant(&shapes[index]);
         let others = around(shapes, index).filter(|shape| std::mem::discriminant(shape) == kind);
         let place = range(stop.syntax());
@@ -201,7 +204,10 @@ impl Made<'_> {
             let ticks = (value / step).round();
             for ticks in [ticks + 1.0, ticks - 1.0] {
                 // An interval must stay one.
-                let bound = other.as_ref().and_then(|other| other.text().parse::<f64>().ok()).map(|other| (other / step).round());
+                let bound = other
+                    .as_ref()
+                    .and_then(|other| other.text().parse::<f64>().ok())
+                    .map(|other| (other / step).round());
                 let is_least = time.number().is_some_and(|first| first == number);
                 let fits = bound.is_none_or(|bound| if is_least { ticks <= bound } else { ticks >= bound });
                 if ticks >= 1.0 && fits {
@@ -224,7 +230,8 @@ impl Made<'_> {
             true => channel.readers().any(|reader| reader.text() == own.text()),
             false => channel.from().is_some_and(|from| from.text() == own.text()),
         });
-        let names: Vec<String> = fitting.filter_map(|channel| channel.name()).map(|name| name.text().to_string()).collect();
+        let names: Vec<String> =
+            fitting.filter_map(|channel| channel.name()).map(|name| name.text().to_string()).collect();
         let Some(index) = names.iter().position(|name| name == subject.text()) else { return };
         for other in around(&names, index).take(TRIED) {
             // Two phases exchange their channels: each channel must be read and written.
@@ -232,8 +239,7 @@ impl Made<'_> {
             let others = component.phases().filter(|phase| phase.kind() == Some(verb));
             let partner = others.filter_map(|phase| phase.subject()).find(|subject| subject.text() == other);
             let Some(partner) = partner else { continue };
-            let edits =
-                vec![Edit::new(range_of(&subject), other), Edit::new(range_of(&partner), subject.text())];
+            let edits = vec![Edit::new(range_of(&subject), other), Edit::new(range_of(&partner), subject.text())];
             self.add(Operator::ChannelsExchanged, range(phase.syntax()), edits);
         }
     }
@@ -304,41 +310,55 @@ mod tests {
     #[test]
     fn machines_lead_elsewhere() {
         check(LAMP, Operator::ArrowRedirected, &["off -> pressed yes -> count -> off", "pressed no -> on"]);
-        check(
-            LAMP,
-            Operator::ExitsSwapped,
-            &["off -> pressed no -> count -> on | on -> pressed | pressed yes -> off"],
-        );
+        check(LAMP, Operator::ExitsSwapped, &["off -> pressed no -> count -> on | on -> pressed | pressed yes -> off"]);
         check(LAMP, Operator::StartMoved, &["state off | initial state on"]);
     }
 
     #[test]
     fn systems_take_other_times_and_ways() {
-        check(PAN, Operator::PhasesSwapped, &[
-            "write position 0.1 ms | elaborate acquire 0.1 ms",
-            "write speed 0.2..0.3 ms | write position 0.1 ms",
-            "read speed | read position",
-        ]);
-        check(PAN, Operator::PeriodScaled, &[
-            "component sense synchronous period 1 ms",
-            "component control synchronous period 2 ms",
-            "component control synchronous period 0.5 ms",
-        ]);
-        check(PAN, Operator::DurationShifted, &[
-            "elaborate acquire 0.2 ms",
-            "write position 0.2 ms",
-            "write speed 0.3..0.3 ms",
-            "write speed 0.1..0.3 ms",
-            "write speed 0.2..0.4 ms",
-            "write speed 0.2..0.2 ms",
-        ]);
-        check(PAN, Operator::SizeShifted, &[
-            "channel position from sense to control swinging buffer 3 master sense",
-            "channel speed from sense to control queue 2",
-        ]);
-        check(PAN, Operator::MasterExchanged, &[
-            "channel position from sense to control swinging buffer 2 master control",
-        ]);
+        check(
+            PAN,
+            Operator::PhasesSwapped,
+            &[
+                "write position 0.1 ms | elaborate acquire 0.1 ms",
+                "write speed 0.2..0.3 ms | write position 0.1 ms",
+                "read speed | read position",
+            ],
+        );
+        check(
+            PAN,
+            Operator::PeriodScaled,
+            &[
+                "component sense synchronous period 1 ms",
+                "component control synchronous period 2 ms",
+                "component control synchronous period 0.5 ms",
+            ],
+        );
+        check(
+            PAN,
+            Operator::DurationShifted,
+            &[
+                "elaborate acquire 0.2 ms",
+                "write position 0.2 ms",
+                "write speed 0.3..0.3 ms",
+                "write speed 0.1..0.3 ms",
+                "write speed 0.2..0.4 ms",
+                "write speed 0.2..0.2 ms",
+            ],
+        );
+        check(
+            PAN,
+            Operator::SizeShifted,
+            &[
+                "channel position from sense to control swinging buffer 3 master sense",
+                "channel speed from sense to control queue 2",
+            ],
+        );
+        check(
+            PAN,
+            Operator::MasterExchanged,
+            &["channel position from sense to control swinging buffer 2 master control"],
+        );
         check(PAN, Operator::ChannelsExchanged, &["write speed 0.1 ms | write position 0.2..0.3 ms"]);
     }
 }

@@ -135,7 +135,8 @@ fn verdict(program: &Arc<Program>) -> Option<bool> {
     let mut options = Options { max_states: 5_000, ..Options::default() };
     options.limits.iterations = 100;
     let report = verify(program, &options, &mut |_| true).expect("there is an initial state");
-    let of = |subject| report.verdicts.iter().find(|verdict| verdict.subject == subject).map(|verdict| &verdict.outcome);
+    let of =
+        |subject| report.verdicts.iter().find(|verdict| verdict.subject == subject).map(|verdict| &verdict.outcome);
     for subject in [Subject::Consistent, Subject::InDomain, Subject::Defined] {
         of(subject).filter(|outcome| matches!(outcome, Outcome::Holds))?;
     }

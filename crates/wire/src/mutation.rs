@@ -202,12 +202,7 @@ pub struct Mutation<'a> {
 
 impl<'a> Mutation<'a> {
     /// The count: who judged; how many mutants there are, and how many were judged; the score, of a sample or of all.
-    pub fn new(
-        judging: Judging<'a>,
-        (mutants, judged): (usize, usize),
-        score: &Score,
-        sampled: bool,
-    ) -> Mutation<'a> {
+    pub fn new(judging: Judging<'a>, (mutants, judged): (usize, usize), score: &Score, sampled: bool) -> Mutation<'a> {
         let round = |percent: f64| (percent * 10.0).round() / 10.0;
         let interval = score.interval().filter(|_| sampled);
         Mutation {

@@ -241,7 +241,8 @@ impl Bench {
         for drawn in &self.drawn {
             let name = tidy(&drawn.chart.name);
             let shared = Arc::new(SourceFile::new(name.clone(), Arc::clone(&drawn.chart.text)));
-            let judges = |judge: &&Judge| if judge.is_system { judge.path == name } else { judge.files.contains(&drawn.model) };
+            let judges =
+                |judge: &&Judge| if judge.is_system { judge.path == name } else { judge.files.contains(&drawn.model) };
             let models = self.judges.iter().enumerate().filter(|(_, judge)| judges(judge)).map(|(index, _)| index);
             let models: Vec<usize> = models.collect();
             let mutants = mutate::chart_mutants(&drawn.chart.text);
@@ -375,9 +376,7 @@ impl Bench {
             let files = link::files(&path, workspace);
             let concerned = match self.wanted.imports {
                 true => self.judges.is_empty() || self.judges.iter().any(|judge| files.contains(&tidy(&judge.path))),
-                false => {
-                    files.is_empty() || files.iter().any(|file| self.is_mutated(file) || self.is_built(file))
-                }
+                false => files.is_empty() || files.iter().any(|file| self.is_mutated(file) || self.is_built(file)),
             };
             if !concerned {
                 continue;

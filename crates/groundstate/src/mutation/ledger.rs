@@ -35,7 +35,8 @@ impl Bench {
         let candidate = &self.candidates[number];
         let Candidate { file, mutant, models, builds: _ } = candidate;
         let super::Wanted { verify, test, refine, whole, extent, .. } = &self.wanted;
-        let machine::Limits { iterations, call_depth, collection, updates, locations, work, interrupt: _ } = &extent.limits;
+        let machine::Limits { iterations, call_depth, collection, updates, locations, work, interrupt: _ } =
+            &extent.limits;
         let mut told = format!(
             "{} {verify} {test} {refine} {whole} {iterations} {call_depth} {collection} {updates} {locations} {work}\n",
             env!("CARGO_PKG_VERSION")

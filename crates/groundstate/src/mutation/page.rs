@@ -17,7 +17,8 @@ pub fn mutation_page(bench: &Bench, outcomes: &[Option<Outcome>], sampled: bool)
         .filter_map(|(candidate, outcome)| Some((candidate.clone(), outcome.clone()?)))
         .collect();
     let left = bench.candidates.iter().zip(outcomes).filter(|(_, outcome)| outcome.is_none());
-    let survivors = surprising(&with).into_iter().map(|(candidate, unseen)| (candidate, Some(Outcome::Survived(unseen))));
+    let survivors =
+        surprising(&with).into_iter().map(|(candidate, unseen)| (candidate, Some(Outcome::Survived(unseen))));
     let others = with.iter().filter(|(_, outcome)| !matches!(outcome, Outcome::Survived(_)));
     let others = others.map(|(candidate, outcome)| (candidate, Some(outcome.clone())));
     for (candidate, outcome) in survivors.chain(others).chain(left.map(|(candidate, _)| (candidate, None))) {

@@ -88,8 +88,7 @@ fn figure(out: &mut String, what: &str, value: &str, remark: &str, bad: bool) {
 }
 
 fn survivors(out: &mut String, analysis: &MutationAnalysis) {
-    let survived: Vec<&JudgedMutant> =
-        analysis.mutants.iter().filter(|mutant| mutant.fate == Fate::Survived).collect();
+    let survived: Vec<&JudgedMutant> = analysis.mutants.iter().filter(|mutant| mutant.fate == Fate::Survived).collect();
     if survived.is_empty() {
         return;
     }

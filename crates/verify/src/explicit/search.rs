@@ -338,9 +338,7 @@ fn search<'k>(
                 news = certain;
             }
             paused = goes_on && kept.as_mut().is_some_and(|(keeper, _)| keeper.is_due());
-            counted = goes_on
-                && counts
-                && reports.iter().map(|report| report.bytes).sum::<u64>() >= census;
+            counted = goes_on && counts && reports.iter().map(|report| report.bytes).sum::<u64>() >= census;
             if paused || counted || news > 0 { Decision::Stop(None) } else { decision }
         };
         let stop = crew.work(explorer, shards, &starts, words, &mut decide);

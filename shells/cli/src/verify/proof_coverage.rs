@@ -35,7 +35,11 @@ pub fn tell(shell: &mut Shell, teller: &Teller<'_>, report: &Report) -> Result<(
     writeln!(
         shell.out(),
         "coverage of {}: {} of {}, {within} of {}",
-        if held.len() == 1 { "1 property that holds".to_string() } else { format!("{} properties that hold", held.len()) },
+        if held.len() == 1 {
+            "1 property that holds".to_string()
+        } else {
+            format!("{} properties that hold", held.len())
+        },
         found.within.len(),
         plural(found.within.len() + found.outside.len(), "function"),
         plural(within + outside, "update"),
