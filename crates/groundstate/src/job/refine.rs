@@ -32,7 +32,7 @@ pub fn refine(coupling: Coupling, mut options: Options, cancel: Cancel) -> io::R
     })
 }
 
-/// Starts a proof by induction, like [`refine`]. Two solvers must accept it.
+/// Starts a proof by induction, like [`refine()`]. Two solvers must accept it.
 ///
 /// # Errors
 /// The system cannot start a thread.
