@@ -274,7 +274,7 @@ mod tests {
             "random: { stop: 1 %, 'at(A)': { '(1,2)': 3, B: 1 } }",
             &[
                 "stop: True(\"1 %\") at []",
-                "at(A): Each([(Text(\"(1,2)\"), \"3\"), (Text(\"B\"), \"1\")]) at [\"(1,2): 3\", \"B: 1\"]",
+                "at(A): Each([(Text(\"(1,2)\"), \"3\"), (Text(\"B\"), \"1\")]) at [\"'(1,2)': 3\", \"B: 1\"]",
             ],
         );
         check("random: { stop: true }", &[OFTEN]);

@@ -4,6 +4,9 @@
 //! of the judge. Neither are links: what they stand for is mutated in the model. INVARIANT: as in [`crate::mutants`]; no mutant has the text
 //! of another one.
 
+use std::collections::BTreeSet;
+use std::ops::Range;
+
 use syntax::ast::{
     AstNode, ChannelKind, ChartFile, Component, ComponentKind, MachineChart, PathStop, Phase, PhaseKind, Quantity,
     Shape, SystemChart,
@@ -16,8 +19,6 @@ use crate::operator::Operator;
 
 /// LIMIT: so many other shapes, or other channels, are tried for each.
 const TRIED: usize = 2;
-/// The arrays that a swinging buffer may have (spec/charts.md).
-const ARRAYS: std::ops::RangeInclusive<u64> = 2..=8;
 
 /// The mutants of a chart.
 pub fn chart_mutants(text: &str) -> Vec<Mutant> {
@@ -26,7 +27,7 @@ pub fn chart_mutants(text: &str) -> Vec<Mutant> {
     let mut made = Made { text, mutants: Vec::new() };
     file.machines().for_each(|machine| made.machine(&machine));
     file.systems().for_each(|system| made.system(&system));
-    let mut seen = std::collections::BTreeSet::new();
+    let mut seen = BTreeSet::new();
     made.mutants.retain(|mutant| seen.insert(crate::edit::applied(text, &mutant.edits)));
     made.mutants.sort_by_key(|mutant| (mutant.place.start, mutant.place.end));
     made.mutants
@@ -37,21 +38,16 @@ struct Made<'t> {
     mutants: Vec<Mutant>,
 }
 
-fn range(node: &SyntaxNode) -> std::ops::Range<usize> {
-    let first =
-        node.descendants_with_tokens().filter_map(|part| part.into_token()).find(|token| !token.kind().is_trivia());
-    let start = first.map_or(node.text_range().start(), |token| token.text_range().start());
-    let tokens = node.descendants_with_tokens().filter_map(|part| part.into_token());
-    let end = tokens.filter(|token| !token.kind().is_trivia()).last();
-    let end = end.map_or(node.text_range().end(), |token| token.text_range().end());
-    start.into()..end.into()
+fn range(node: &impl AstNode) -> Range<usize> {
+    let range = node.range();
+    range.start().into()..range.end().into()
 }
 
 fn tokens(node: &SyntaxNode) -> impl Iterator<Item = SyntaxToken> {
     node.children_with_tokens().filter_map(|part| part.into_token())
 }
 
-fn range_of(token: &SyntaxToken) -> std::ops::Range<usize> {
+fn range_of(token: &SyntaxToken) -> Range<usize> {
     token.text_range().start().into()..token.text_range().end().into()
 }
 
@@ -65,7 +61,7 @@ fn around<T: Clone>(all: &[T], index: usize) -> impl Iterator<Item = T> {
 }
 
 impl Made<'_> {
-    fn add(&mut self, operator: Operator, place: std::ops::Range<usize>, mut edits: Vec<Edit>) {
+    fn add(&mut self, operator: Operator, place: Range<usize>, mut edits: Vec<Edit>) {
         edits.sort_by_key(|edit| edit.range.start);
         self.mutants.push(Mutant { operator, place, edits, function: None });
     }
@@ -101,7 +97,7 @@ impl Made<'_> {
         };
         let kind = std::mem::discriminant(&shapes[index]);
         let others = around(shapes, index).filter(|shape| std::mem::discriminant(shape) == kind);
-        let place = range(stop.syntax());
+        let place = range(stop);
         for other in others.filter_map(|shape| name_of(&shape)).take(TRIED) {
             let edit = match is_last {
                 true => Edit::new(range_of(&name), other),
@@ -127,7 +123,7 @@ impl Made<'_> {
         });
         let edits: Vec<Edit> = edits.collect();
         if !edits.is_empty() {
-            self.add(Operator::ExitsSwapped, range(guard.syntax()), edits);
+            self.add(Operator::ExitsSwapped, range(guard), edits);
         }
     }
 
@@ -145,9 +141,9 @@ impl Made<'_> {
         for other in others.take(TRIED) {
             let from = range_of(&word);
             let blank = self.text[from.end..].len() - self.text[from.end..].trim_start().len();
-            let at = range(other.syntax()).start;
+            let at = range(&other).start;
             let edits = vec![Edit::new(from.start..from.end + blank, ""), Edit::new(at..at, "initial ")];
-            self.add(Operator::StartMoved, range(start.syntax()), edits);
+            self.add(Operator::StartMoved, range(start), edits);
         }
     }
 
@@ -157,7 +153,7 @@ impl Made<'_> {
         for component in system.components() {
             let phases: Vec<Phase> = component.phases().collect();
             for pair in phases.windows(2) {
-                let (one, other) = (range(pair[0].syntax()), range(pair[1].syntax()));
+                let (one, other) = (range(&pair[0]), range(&pair[1]));
                 let edits = vec![
                     Edit::new(one.clone(), &self.text[other.clone()]),
                     Edit::new(other.clone(), &self.text[one.clone()]),
@@ -190,7 +186,7 @@ impl Made<'_> {
         let deadline = kind.quantity(SyntaxKind::DEADLINE_KW).and_then(|deadline| nanoseconds(&deadline));
         let halves = length % (2 * tick_ns) == 0 && deadline.is_none_or(|deadline| deadline <= length / 2);
         for scaled in [Some(2.0 * value), halves.then_some(value / 2.0)].into_iter().flatten() {
-            self.add(Operator::PeriodScaled, range(period.syntax()), vec![Edit::new(range_of(&number), shown(scaled))]);
+            self.add(Operator::PeriodScaled, range(&period), vec![Edit::new(range_of(&number), shown(scaled))]);
         }
     }
 
@@ -198,8 +194,8 @@ impl Made<'_> {
     fn duration(&mut self, phase: &Phase, tick_ns: u64) {
         let Some(time) = phase.time() else { return };
         for (number, other) in [(time.number(), time.most()), (time.most(), time.number())] {
-            let Some((number, unit)) = number.zip(time.unit()) else { continue };
-            let (Ok(value), Some(unit_ns)) = (number.text().parse::<f64>(), unit_ns(unit.text())) else { continue };
+            let Some((number, unit_ns)) = number.zip(time.unit_ns()) else { continue };
+            let Ok(value) = number.text().parse::<f64>() else { continue };
             let step = tick_ns as f64 / unit_ns as f64;
             let ticks = (value / step).round();
             for ticks in [ticks + 1.0, ticks - 1.0] {
@@ -212,7 +208,7 @@ impl Made<'_> {
                 let fits = bound.is_none_or(|bound| if is_least { ticks <= bound } else { ticks >= bound });
                 if ticks >= 1.0 && fits {
                     let text = shown(ticks * step);
-                    self.add(Operator::DurationShifted, range(time.syntax()), vec![Edit::new(range_of(&number), text)]);
+                    self.add(Operator::DurationShifted, range(&time), vec![Edit::new(range_of(&number), text)]);
                 }
             }
         }
@@ -240,7 +236,7 @@ impl Made<'_> {
             let partner = others.filter_map(|phase| phase.subject()).find(|subject| subject.text() == other);
             let Some(partner) = partner else { continue };
             let edits = vec![Edit::new(range_of(&subject), other), Edit::new(range_of(&partner), subject.text())];
-            self.add(Operator::ChannelsExchanged, range(phase.syntax()), edits);
+            self.add(Operator::ChannelsExchanged, range(phase), edits);
         }
     }
 
@@ -249,7 +245,7 @@ impl Made<'_> {
         let Some(size) = kind.size() else { return };
         let Ok(value) = size.text().parse::<u64>() else { return };
         for other in [value.checked_add(1), value.checked_sub(1)].into_iter().flatten() {
-            let fits = if kind.is_buffer() { ARRAYS.contains(&other) } else { other > 0 };
+            let fits = if kind.is_buffer() { ChannelKind::ARRAYS.contains(&other) } else { other > 0 };
             if fits {
                 self.add(Operator::SizeShifted, range_of(&size), vec![Edit::new(range_of(&size), other.to_string())]);
             }
@@ -266,19 +262,9 @@ impl Made<'_> {
     }
 }
 
-fn unit_ns(unit: &str) -> Option<u64> {
-    Some(match unit {
-        "ns" => 1,
-        "us" => 1_000,
-        "ms" => 1_000_000,
-        "s" => 1_000_000_000,
-        _ => return None,
-    })
-}
-
 fn nanoseconds(quantity: &Quantity) -> Option<u64> {
     let value: f64 = quantity.number()?.text().parse().ok()?;
-    Some((value * unit_ns(quantity.unit()?.text())? as f64).round() as u64)
+    Some((value * quantity.unit_ns()? as f64).round() as u64)
 }
 
 /// A number as a chart writes it.

@@ -199,10 +199,28 @@ impl<'p> Flow<'p> {
         while let Some(id) = open.pop() {
             program.each_term_of_rule(id, &mut |term| found.extend(self.reads(term)));
             match program.rule(id) {
-                Rule::Update { function, .. } | Rule::Return { function, .. } => {
+                Rule::Update { function, .. } => _ = found.insert(Node::Function(*function)),
+                Rule::Return { function, .. } => {
                     found.insert(Node::Function(*function));
+                    found.extend(program.result_function.map(Node::Function));
                 }
-                _ => {}
+                Rule::Extend { domain, .. } => _ = found.insert(Node::Domain(*domain)),
+                Rule::Skip
+                | Rule::Call { .. }
+                | Rule::TurboCall { .. }
+                | Rule::RunValue { .. }
+                | Rule::RunAgent { .. }
+                | Rule::Par(_)
+                | Rule::Seq(_)
+                | Rule::If { .. }
+                | Rule::Switch { .. }
+                | Rule::Let { .. }
+                | Rule::Choose { .. }
+                | Rule::Forall { .. }
+                | Rule::Iterate(_)
+                | Rule::While { .. }
+                | Rule::RecursiveWhile { .. }
+                | Rule::Local { .. } => {}
             }
             let called: Vec<ProcedureId> = self.called(id);
             open.extend(called.into_iter().filter(|id| entered.insert(*id)).map(|id| program.procedure(id).body));

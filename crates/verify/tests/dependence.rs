@@ -109,14 +109,17 @@ fn rule(random: &mut Random, depth: u64) -> String {
 fn model(seed: u64) -> String {
     let mut random = Random(seed);
     let read = random.pick(&["a", "b", "c", "d"]).to_string();
-    let property = match random.below(3) {
+    let property = match random.below(6) {
         0 => format!("invariant inv_p over {read}: {read} < 2"),
         1 => format!("CTLSPEC ctlSpec_p: ag(ef({read} = 1))"),
-        _ => format!("CTLSPEC ctlSpec_p: ef({read} = 2)"),
+        2 => format!("CTLSPEC ctlSpec_p: ef({read} = 2)"),
+        3 => format!("CTLSPEC ctlSpec_p: ag({read} = 1 implies ax({read} != 1))"),
+        4 => format!("LTLSPEC ltlSpec_p: f(g({read} = 0))"),
+        _ => format!("LTLSPEC ltlSpec_p: g({read} = 0 implies f({read} = 1))"),
     };
     let main = rule(&mut random, 3);
     format!(
-        "asm example\nimport StandardLibrary\nimport CTLLibrary\nsignature:\n\
+        "asm example\nimport StandardLibrary\nimport CTLLibrary\nimport LTLLibrary\nsignature:\n\
          domain Three subsetof Integer\n\
          controlled a: Three\ncontrolled b: Three\ncontrolled c: Three\ncontrolled d: Three\ncontrolled e: Three\ncontrolled g: Three\n\
          monitored go: Boolean\nderived both: Three -> Three\ndefinitions:\n\

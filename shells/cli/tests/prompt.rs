@@ -1,4 +1,4 @@
-//! The prompt of `groundstate run`: piped, as a transcript.
+//! The prompt of `groundstate run`: piped, as a transcript; and at a pseudo terminal, with keys.
 #![allow(clippy::disallowed_methods, reason = "the test makes the files it gives to the command")]
 
 use std::io::Write;
@@ -373,4 +373,116 @@ fn a_trace_of_an_interactive_run_is_replayed() {
     let mut command = Command::new(env!("CARGO_BIN_EXE_groundstate"));
     let output = command.args(["replay", "door.trace"]).current_dir(folder.path()).output().expect("it starts");
     assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+}
+
+#[cfg(unix)]
+mod terminal {
+    use std::fs::File;
+    use std::io::{Read, Write};
+    use std::os::fd::OwnedFd;
+    use std::process::{Child, Command, Stdio};
+    use std::sync::mpsc::{Receiver, channel};
+    use std::thread;
+    use std::time::{Duration, Instant};
+
+    use rustix::pty::{OpenptFlags, grantpt, openpt, ptsname, unlockpt};
+
+    /// LIMIT: whoever does not write for so long writes nothing more.
+    const SILENCE: Duration = Duration::from_secs(60);
+
+    /// A program at a pseudo terminal. It ends with the test, whatever it waits for.
+    struct Terminal {
+        master: File,
+        written: Receiver<Vec<u8>>,
+        child: Child,
+        told: String,
+    }
+
+    impl Terminal {
+        fn run(folder: &std::path::Path, arguments: &[&str]) -> Terminal {
+            let master: OwnedFd = openpt(OpenptFlags::RDWR | OpenptFlags::NOCTTY).expect("a pseudo terminal");
+            grantpt(&master).expect("it is ours");
+            unlockpt(&master).expect("it opens");
+            let name = ptsname(&master, Vec::new()).expect("a name").into_string().expect("text");
+            let slave = File::options().read(true).write(true).open(name).expect("the other end");
+            let end = || Stdio::from(slave.try_clone().expect("one more"));
+            let mut command = Command::new(env!("CARGO_BIN_EXE_groundstate"));
+            command.args(arguments).current_dir(folder).env("TERM", "xterm").env("NO_COLOR", "1");
+            let child = command.stdin(end()).stdout(end()).stderr(end()).spawn().expect("it starts");
+            let master = File::from(master);
+            let mut reader = master.try_clone().expect("one more");
+            let (sender, written) = channel();
+            // Reading waits for as long as nothing comes, so the test does not do it itself.
+            thread::spawn(move || {
+                let mut bytes = [0; 4096];
+                while let Ok(read @ 1..) = reader.read(&mut bytes) {
+                    if sender.send(bytes[..read].to_vec()).is_err() {
+                        return;
+                    }
+                }
+            });
+            Terminal { master, written, child, told: String::new() }
+        }
+
+        /// Reads until the text comes after what was read before.
+        fn await_text(&mut self, text: &str) {
+            while !self.told.contains(text) {
+                let Ok(bytes) = self.written.recv_timeout(SILENCE) else {
+                    panic!("`{text}` does not come: {}", self.told);
+                };
+                self.told.push_str(&String::from_utf8_lossy(&bytes));
+            }
+            let end = self.told.find(text).expect("it is there") + text.len();
+            self.told.drain(..end);
+        }
+
+        fn keys(&mut self, keys: &str) {
+            self.master.write_all(keys.as_bytes()).expect("it reads");
+        }
+
+        /// The exit code, if the program ends.
+        fn ends(&mut self) -> Option<i32> {
+            let begin = Instant::now();
+            while begin.elapsed() < SILENCE {
+                if let Some(status) = self.child.try_wait().expect("it was started") {
+                    return status.code();
+                }
+                thread::sleep(Duration::from_millis(10));
+            }
+            panic!("it does not end: {}", self.told);
+        }
+    }
+
+    impl Drop for Terminal {
+        fn drop(&mut self) {
+            let _ = self.child.kill();
+            let _ = self.child.wait();
+        }
+    }
+
+    /// Tab completes a value of the domain, arrow up recalls one of the same domain and none of another; Ctrl-D ends the run.
+    #[test]
+    fn keys_complete_and_recall() {
+        let folder = super::folder();
+        let mut terminal = Terminal::run(folder.path(), &["run", "Door.asm"]);
+        terminal.await_text("? says what can be typed");
+        terminal.await_text("step 1: hand (Hand: PULL, PUSH, NONE) = ");
+        terminal.keys("PUL\t\r");
+        terminal.await_text("step 1: level (Level: 0, 1, 2, 3, 4, 5) = ");
+        terminal.keys("4\r");
+        terminal.await_text("CLOSED -> OPENING");
+        terminal.await_text("step 2: hand (Hand: PULL, PUSH, NONE) = ");
+        terminal.keys("\x1b[A\r");
+        terminal.await_text("step 2: level (Level: 0, 1, 2, 3, 4, 5) = ");
+        terminal.keys("\x1b[A\r");
+        terminal.await_text("in level = 4");
+        terminal.await_text("OPENING -> OPENED");
+        terminal.await_text("step 3: hand (Hand: PULL, PUSH, NONE) = ");
+        terminal.keys(":st\t doo\t\r");
+        terminal.await_text("door = OPENED");
+        terminal.await_text("step 3: hand");
+        terminal.keys("\x04");
+        terminal.await_text("stopped at the prompt");
+        assert_eq!(terminal.ends(), Some(0));
+    }
 }

@@ -192,15 +192,9 @@ impl Reader {
     /// A number of a length of time, in nanoseconds.
     fn measure(&mut self, quantity: &ast::Quantity, number: &SyntaxToken) -> Option<u64> {
         let unit = quantity.unit()?;
-        let scale: u64 = match unit.text() {
-            "ns" => 1,
-            "us" => 1_000,
-            "ms" => 1_000_000,
-            "s" => 1_000_000_000,
-            other => {
-                self.faults.push(fault::unknown_unit(self.span(&unit), other));
-                return None;
-            }
+        let Some(scale) = quantity.unit_ns() else {
+            self.faults.push(fault::unknown_unit(self.span(&unit), unit.text()));
+            return None;
         };
         let value: f64 = number.text().parse().ok()?;
         let nanoseconds = (value * scale as f64).round();
@@ -349,7 +343,7 @@ impl Reader {
             self.faults.push(fault::channel_master(span, name.text()));
         }
         let size = kind.size().and_then(|size| size.text().parse().ok()).unwrap_or(2);
-        if kind.is_buffer() && !(2..=8).contains(&size) {
+        if kind.is_buffer() && !ast::ChannelKind::ARRAYS.contains(&size) {
             self.faults.push(fault::channel_ends(span, name.text(), "a swinging buffer has two to eight arrays"));
         }
         let several = readers.len() > 1;

@@ -19,8 +19,8 @@ use crate::workspace::Files;
 pub enum MutateEvent {
     /// A model or a scenario is tried as it is.
     Tried(String),
-    /// All were; so many mutants are to be judged, and of so many others the outcome was kept.
-    Begun(usize, usize),
+    /// All were; so many mutants are to be judged.
+    Begun(usize),
     /// The mutant of this number was judged.
     Judged(usize, Box<Outcome>),
 }
@@ -82,7 +82,7 @@ pub fn mutate<F: Files + Send + 'static>(
                 outcomes = keys.iter().map(|key| ledger.known(key)).collect();
                 kept = outcomes.iter().flatten().count();
             }
-            port.tell(MutateEvent::Begun(outcomes.len() - kept, kept));
+            port.tell(MutateEvent::Begun(outcomes.len() - kept));
             judge(&bench, (&*files, &*timer, workers), &port, &mut outcomes, &mut |number, outcome| {
                 if let Some((ledger, keys)) = ledger.as_mut().filter(|_| outcome.is_final()) {
                     ledger.keep(&keys[number], outcome);

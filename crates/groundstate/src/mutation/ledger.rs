@@ -33,7 +33,7 @@ impl Bench {
     /// The key of the mutant of this number.
     pub fn key(&self, number: usize) -> String {
         let candidate = &self.candidates[number];
-        let Candidate { file, mutant, models, builds: _ } = candidate;
+        let Candidate { file, mutant, models, builds } = candidate;
         let super::Wanted { verify, test, refine, whole, extent, .. } = &self.wanted;
         let machine::Limits { iterations, call_depth, collection, updates, locations, work, interrupt: _ } =
             &extent.limits;
@@ -45,6 +45,9 @@ impl Bench {
         let _ = writeln!(told, "{} {} {}", mutant.operator.id(), file.name, text_fingerprint(&file.text));
         for edit in &mutant.edits {
             let _ = writeln!(told, "{:?} {:?}", edit.range, edit.text);
+        }
+        for drawn in self.drawn.iter().filter(|drawn| builds.as_ref() == Some(&drawn.model)) {
+            let _ = writeln!(told, "{} {} {}", drawn.model, drawn.is_new, text_fingerprint(&drawn.text));
         }
         for judge in models.iter().map(|index| &self.judges[*index]) {
             told += &judge.print;

@@ -49,7 +49,7 @@ fn verdict(out: &mut String, report: &Report) {
 }
 
 /// A figure: what, how much, and a remark in markup.
-fn figure(out: &mut String, what: &str, value: &str, remark: &str, bad: bool) {
+pub(super) fn figure(out: &mut String, what: &str, value: &str, remark: &str, bad: bool) {
     let class = if bad { " class=\"bad\"" } else { "" };
     put!(out, "<div{class}><dt>{what}</dt><dd><b>{}</b><span>{remark}</span></dd></div>\n", Text(value));
 }

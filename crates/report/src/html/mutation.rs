@@ -4,6 +4,7 @@
 
 use std::collections::BTreeMap;
 
+use crate::html::figures::figure;
 use crate::html::{open, section};
 use crate::markup::{Text, put};
 use crate::mutation::{Fate, JudgedMutant, MutatedFile, MutationAnalysis};
@@ -44,7 +45,7 @@ fn header(out: &mut String, analysis: &MutationAnalysis) {
     let left = analysis.count(|fate| matches!(fate, Fate::Unknown | Fate::NotJudged | Fate::Refused));
     let (class, mark, sentence) = match (analysis.mutants.len(), survived, left) {
         (0, ..) => ("unknown", '?', "There was nothing to mutate.".to_string()),
-        (_, 0, 0) => ("good", '\u{2713}', "Every fault that makes a difference is noticed.".to_string()),
+        (_, 0, 0) => ("good", '\u{2713}', "No mutant survived.".to_string()),
         (_, 0, _) => ("unknown", '?', format!("Nothing survived; of {} it is not known.", plural(left, "mutant"))),
         _ => ("bad", '\u{2717}', format!("{} survived.", plural(survived, "mutant"))),
     };
@@ -55,7 +56,7 @@ fn header(out: &mut String, analysis: &MutationAnalysis) {
     out.push_str("<dl class=\"figures\">\n");
     let interval = match analysis.interval {
         Some((low, high)) => format!("of all between {low:.1} % and {high:.1} %"),
-        None => "of those that can be noticed".to_string(),
+        None => "of those killed or survived".to_string(),
     };
     let score = analysis.score.map_or("\u{2013}".to_string(), |score| format!("{score:.1} %"));
     figure(out, "Score", &score, &interval, survived > 0);
@@ -80,11 +81,6 @@ fn header(out: &mut String, analysis: &MutationAnalysis) {
         figure(out, "Not known", &count(left as u64), "see below", false);
     }
     out.push_str("</dl>\n</header>\n");
-}
-
-fn figure(out: &mut String, what: &str, value: &str, remark: &str, bad: bool) {
-    let class = if bad { " class=\"bad\"" } else { "" };
-    put!(out, "<div{class}><dt>{what}</dt><dd><b>{}</b><span>{}</span></dd></div>\n", Text(value), Text(remark));
 }
 
 fn survivors(out: &mut String, analysis: &MutationAnalysis) {

@@ -244,6 +244,9 @@ impl Channel {
 }
 
 impl ChannelKind {
+    /// How many arrays a swinging buffer may have.
+    pub const ARRAYS: std::ops::RangeInclusive<u64> = 2..=8;
+
     /// It is a swinging buffer.
     pub fn is_buffer(&self) -> bool {
         token(self.syntax(), SWINGING_KW).is_some()
@@ -304,5 +307,15 @@ impl Quantity {
     /// The unit.
     pub fn unit(&self) -> Option<SyntaxToken> {
         token(self.syntax(), GENERIC_ID)
+    }
+    /// The unit in nanoseconds; none if there is no such unit.
+    pub fn unit_ns(&self) -> Option<u64> {
+        Some(match self.unit()?.text() {
+            "ns" => 1,
+            "us" => 1_000,
+            "ms" => 1_000_000,
+            "s" => 1_000_000_000,
+            _ => return None,
+        })
     }
 }

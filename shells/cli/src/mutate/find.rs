@@ -40,6 +40,11 @@ impl Found {
         }
         let mutated: BTreeSet<String> = texts(paths)?.iter().map(|path| name(path)).collect();
         let judges = if by.is_empty() { paths } else { by };
+        if let Some(chart) = by.iter().find(|path| has_ending(path, "chart") && !mutated.contains(&name(path))) {
+            let help = "name it before --by as well, or name the models and scenarios that use what is built of it";
+            let message = format!("{} judges its own mutants alone", chart.display());
+            return Err(Failure::usage_with_help(message, help));
+        }
         let mut files = Vec::new();
         for path in judges {
             // A folder may have models without scenarios, or scenarios alone.

@@ -157,7 +157,7 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     while let Some(event) = job.next_event() {
         match event {
             MutateEvent::Tried(_) => {}
-            MutateEvent::Begun(count, _) => {
+            MutateEvent::Begun(count) => {
                 progress = Some(Progress::of("mutants", count as u64, shell.global.quiet || shell.json()));
             }
             MutateEvent::Judged(..) => {

@@ -5,8 +5,8 @@
 
 use std::collections::BTreeMap;
 use std::fs::{File, OpenOptions};
-use std::io::{Seek, SeekFrom, Write};
-use std::path::{Path, PathBuf};
+use std::io::Write;
+use std::path::Path;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use groundstate::mutation::{Ledger, Outcome};
@@ -36,10 +36,9 @@ impl Results {
             Err(error) => return Err(unread(error)),
         };
         let (known, whole) = read(&text).ok_or_else(|| foreign(path))?;
-        let options = OpenOptions::new().create(true).truncate(false).write(true).open(path);
-        let mut file = options.map_err(written)?;
+        // Lines of two analyses at a time come one after the other.
+        let mut file = OpenOptions::new().create(true).append(true).open(path).map_err(written)?;
         file.set_len(whole as u64).map_err(written)?;
-        file.seek(SeekFrom::End(0)).map_err(written)?;
         if whole == 0 {
             line(&mut file, &ResultsHead::default()).map_err(written)?;
         }
@@ -95,7 +94,7 @@ fn read(text: &str) -> Option<(BTreeMap<String, Outcome>, usize)> {
 
 fn foreign(path: &Path) -> Failure {
     let help = "name another file, or a new one";
-    Failure::usage_with_help(format!("{} has no results of `groundstate mutate`", PathBuf::from(path).display()), help)
+    Failure::usage_with_help(format!("{} has no results of `groundstate mutate`", path.display()), help)
 }
 
 #[cfg(test)]

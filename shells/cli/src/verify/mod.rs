@@ -282,6 +282,10 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
         Fair::Weak => AgentFairness::Weak,
         Fair::Strong => AgentFairness::Strong,
     });
+    if arguments.coverage && agents.is_some() {
+        let message = "--coverage does not know what fairness of agents rests on";
+        return Err(Failure::usage_with_help(message, "leave it out, or the fairness"));
+    }
     let (general, watch) = match &system {
         Some(system) => {
             system::refuse(system, &asked, loaded.program.properties.len(), terminal.as_ref())?;
