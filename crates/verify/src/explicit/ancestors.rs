@@ -10,9 +10,11 @@ use std::collections::BTreeMap;
 
 use machine::Interrupt;
 
+use crate::explicit::crew::Crew;
 use crate::explicit::lineage::{At, Lineage, Wanted};
 use crate::explicit::search::Search;
-use crate::explicit::shard::{Crew, Decision, Shard, Tally};
+use crate::explicit::shard::Shard;
+use crate::explicit::tally::{Decision, Tally};
 use crate::explorers::representatives;
 use crate::progress::{Progress, Stop};
 use crate::storage::Store;

@@ -1,14 +1,16 @@
 //! The explicit engine: explores all reachable states one after another, level by level.
 //!
-//! [`search`] directs the workers of [`shard`], whose states are packed [`anew`] where they turn out to take few values; [`traces`] makes shortest runs to the findings, by [`ways`], or by
+//! [`search`] directs the workers of [`crew`], each with a [`shard`], whose states are packed [`anew`] where they turn out to take few values; [`traces`] makes shortest runs to the findings, by [`ways`], or by
 //! [`ancestors`] if states were not stored.
 
 mod ancestors;
 mod anew;
+mod crew;
 pub(crate) mod edges;
 mod lineage;
 pub(crate) mod search;
 pub(crate) mod shard;
+mod tally;
 mod traces;
 mod ways;
 

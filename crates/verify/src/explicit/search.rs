@@ -1,7 +1,7 @@
 //! The explicit search: all reachable states, level by level.
 //!
 //! In: a program and the targets. Out: a [`Search`] that has ended, with the states by distance and the first state for
-//! each target. Each worker ([`crate::explicit::shard`]) owns the states that hash to it. A level is completed before
+//! each target. Each worker ([`crate::explicit::crew`]) owns the states that hash to it. A level is completed before
 //! the next begins, so a finding is at the least distance, and of several states the least in canonical order.
 //! INVARIANT: the result is the same for any number of workers.
 
@@ -18,8 +18,10 @@ use crate::checkpoint::journal::Journal;
 use crate::checkpoint::keeper::Keeper;
 use crate::checkpoint::{Past, Resumed, Unfit, keep, made, resume};
 use crate::explicit::anew::packed_anew;
+use crate::explicit::crew::Crew;
 use crate::explicit::edges::{Edges, OWNERS};
-use crate::explicit::shard::{Crew, Decision, Shard, Tally, note};
+use crate::explicit::shard::{Shard, note};
+use crate::explicit::tally::{Decision, Tally};
 use crate::explicit::ways::ways;
 use crate::explorers::{Maker, representatives};
 use crate::heed::Heed;

@@ -1,24 +1,21 @@
-//! A worker of a search, with the states that it owns.
+//! The states that one worker of a search owns.
 //!
-//! In: a plan, and successors from all workers. Out: the states that hash to this worker, by distance, and the findings
-//! in them. All workers proceed in rounds: each makes the steps of some of its states on the level and sends the
-//! successors to their owners; each takes in what it received; then the first worker decides how to continue.
-//! INVARIANT: what a worker receives, and in which order, depends only on the number of workers.
+//! In: a plan, and successors from all workers ([`crate::explicit::crew`]). Out: the states that hash to this shard, by distance, and the
+//! findings in them; the successors of its states. It must not know who works on it, nor when.
 
 use std::collections::BTreeSet;
-use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
-use std::sync::{Arc, Barrier, Mutex, PoisonError};
+use std::sync::Arc;
 
-use explore::{Expansion, Explorer, Orbits, Trouble, Truth, Unbounded, Widening};
+use explore::{Expansion, Explorer, Orbits, Truth, Unbounded, Widening};
 use syntax::Span;
 
 use crate::checkpoint::journal::Journal;
 use crate::explicit::edges::{Edges, LEFT_OUT};
 use crate::explicit::lineage::Lineage;
+use crate::explicit::tally::Tally;
 use crate::partial_order::Reduction;
 use crate::plan::Plan;
-use crate::progress::{Progress, Stop};
-use crate::storage::{Storage, Store};
+use crate::storage::Store;
 use crate::table::hash;
 use crate::target::{Found, Target};
 
@@ -65,148 +62,6 @@ pub(crate) struct Shard {
     pub edges: Option<Edges>,
     /// Some work was left undone because the caller asked to stop.
     pub cut: bool,
-}
-
-/// What all workers share besides their messages.
-pub(crate) struct Crew<'a> {
-    pub plan: &'a Plan,
-    /// A machine cannot move between threads, so each worker creates its own explorer; the first has one.
-    pub explore: &'a (dyn Fn() -> Result<Explorer, Trouble> + Sync),
-}
-
-/// Successors on their way from one worker to another.
-type Mail = Vec<Vec<Mutex<Vec<u64>>>>;
-/// Where the owner of successors has put them: by the worker that made them and that which owns them. Empty where no edges are kept.
-type Places = Vec<Vec<Mutex<Vec<u32>>>>;
-
-fn lock<T>(mutex: &Mutex<T>) -> std::sync::MutexGuard<'_, T> {
-    mutex.lock().unwrap_or_else(PoisonError::into_inner)
-}
-
-/// What workers share at the end of a round.
-#[derive(Debug)]
-struct Board {
-    /// By worker.
-    reports: Vec<Tally>,
-    decision: Decision,
-    /// How many successors each worker may make in the next round before it expands no further state, so that the limit
-    /// of states is not exceeded by much.
-    quota: u64,
-    /// The round was cut short and its results do not count: finding runs repeats whole rounds.
-    void: bool,
-    /// The edges take too much memory: nobody keeps them any more.
-    forgets_edges: bool,
-}
-
-/// What a worker reports to the leader.
-#[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct Tally {
-    pub states: u64,
-    pub transitions: u64,
-    pub compiled: u64,
-    pub blocked: u64,
-    /// States of this level that still have to be expanded.
-    pub left: u64,
-    /// States of the next level.
-    pub fresh: u64,
-    /// States that may turn out not to be new on the next level.
-    pub pending: u64,
-    pub bytes: u64,
-    /// Bytes of files.
-    pub spilled: u64,
-    pub full: bool,
-    /// A file could not be read or written.
-    pub lost: bool,
-    /// A state did not fit, so the search starts again.
-    pub narrow: bool,
-    pub found: bool,
-    /// The number of findings at distances that were explored completely.
-    pub certain: usize,
-    /// Some of the round was left undone because the caller asked to stop.
-    pub cut: bool,
-    /// The worker has panicked.
-    pub broken: bool,
-}
-
-impl Tally {
-    /// The progress of a search, from its workers' reports.
-    pub fn progress(reports: &[Tally], depth: u64) -> Progress {
-        let sum = |of: fn(&Tally) -> u64| reports.iter().map(of).sum::<u64>();
-        let fresh = sum(|report| report.fresh);
-        Progress {
-            states: sum(|report| report.states),
-            transitions: sum(|report| report.transitions),
-            queue: sum(|report| report.left + report.pending) + fresh,
-            depth: if fresh > 0 { depth } else { depth.saturating_sub(1) },
-            bytes: sum(|report| report.bytes),
-            spilled: sum(|report| report.spilled),
-            compiled: sum(|report| report.compiled),
-            blocked: sum(|report| report.blocked),
-        }
-    }
-}
-
-/// How to continue.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Decision {
-    /// Continue the level.
-    Round,
-    /// The level has ended: settle pending states.
-    Settle,
-    /// Begin the next level.
-    Level,
-    /// Stop all workers.
-    Stop(Option<Stop>),
-}
-
-/// Decides how to continue, from the reports of all workers and the depth of the incoming states.
-pub(crate) type Leader<'a> = dyn FnMut(&[Tally], u64) -> Decision + 'a;
-
-impl Crew<'_> {
-    /// Runs the workers of the shards until the leader decides to stop. `starts` are the initial states, each followed
-    /// by its additional words.
-    pub fn work(
-        &self,
-        explorer: &mut Explorer,
-        shards: &mut [Shard],
-        starts: &[u64],
-        item: usize,
-        decide: &mut Leader<'_>,
-    ) -> Option<Stop> {
-        let (count, words) = (shards.len(), explorer.words());
-        let mail: Mail = (0..count).map(|_| (0..count).map(|_| Mutex::default()).collect()).collect();
-        let places: Places = (0..count).map(|_| (0..count).map(|_| Mutex::default()).collect()).collect();
-        for item in starts.chunks_exact(item) {
-            lock(&mail[owner(&item[..words], count)][0]).extend_from_slice(item);
-        }
-        if let Some(edges) = shards[0].edges.as_mut().filter(|_| !starts.is_empty()) {
-            edges.begin(starts.chunks_exact(item).map(|item| owner(&item[..words], count)));
-        }
-        let barrier = Barrier::new(count);
-        let board = Mutex::new(Board {
-            reports: vec![Tally::default(); count],
-            decision: Decision::Round,
-            quota: 0,
-            void: false,
-            forgets_edges: false,
-        });
-        let (leader, others) = shards.split_first_mut().expect("at least one worker");
-        std::thread::scope(|scope| {
-            for (index, shard) in others.iter_mut().enumerate() {
-                let (mail, places, barrier, board) = (&mail, &places, &barrier, &board);
-                let (plan, explore) = (self.plan, self.explore);
-                let body = move || {
-                    let mut explorer = explore().expect("the leader has made the same");
-                    let exchange = (mail, places);
-                    shard.work(&mut explorer, index + 1, plan, exchange, barrier, board, &mut |_, _| Decision::Round);
-                };
-                // Steps may recurse deeply; beyond this, the stack grows on demand.
-                let spawned = std::thread::Builder::new().stack_size(16 << 20).spawn_scoped(scope, body);
-                assert!(spawned.is_ok(), "a thread can be made");
-            }
-            leader.work(explorer, 0, self.plan, (&mail, &places), &barrier, &board, decide)
-        })
-    }
 }
 
 /// The worker that owns a state.
@@ -267,111 +122,6 @@ impl Shard {
         }
     }
 
-    /// Works until the leader, worker 0, decides to stop.
-    #[allow(clippy::too_many_arguments, reason = "all of them are shared by the workers and used here alone")]
-    fn work(
-        &mut self,
-        explorer: &mut Explorer,
-        index: usize,
-        plan: &Plan,
-        (mail, places): (&Mail, &Places),
-        barrier: &Barrier,
-        board: &Mutex<Board>,
-        leader: &mut Leader<'_>,
-    ) -> Option<Stop> {
-        let mut sent = vec![Vec::new(); mail.len()];
-        let mut settles = false;
-        let mut quota = 1;
-        self.compiled_before = self.compiled.saturating_sub(explorer.compiled_states());
-        if self.reduction.is_some() {
-            // Expanding a state determines the parts of the main rule.
-            let initial = explorer.initial().first().map(|(state, _)| state.clone());
-            let _ = initial.map(|state| explorer.expand(&state, &mut Vec::new()));
-        }
-        loop {
-            let mut panic = None;
-            // A worker that panics still meets the others at the barriers, so that all end; then the panic continues.
-            let mut guard = |body: &mut dyn FnMut()| {
-                panic = panic.take().or(catch_unwind(AssertUnwindSafe(body)).err());
-            };
-            guard(&mut || {
-                self.cut |= !self.expand_round(explorer, plan, quota, &mut sent);
-                if self.cut && plan.storage != Storage::Exact {
-                    lock(board).void = true;
-                }
-                for (to, successors) in sent.iter_mut().enumerate() {
-                    lock(&mail[to][index]).append(successors);
-                }
-            });
-            barrier.wait();
-            guard(&mut || {
-                let void = lock(board).void;
-                for (from, received) in mail[index].iter().enumerate() {
-                    if void {
-                        lock(received).clear();
-                    }
-                    self.take_in(explorer, plan, &mut lock(received), false, &mut lock(&places[from][index]));
-                }
-                if settles && self.store.pending() > 0 {
-                    self.take_in(explorer, plan, &mut Vec::new(), true, &mut Vec::new());
-                }
-            });
-            self.order_mattered = explorer.order_mattered();
-            let broken = panic.is_some();
-            lock(board).reports[index] = Tally { broken, ..self.report() };
-            barrier.wait();
-            let all_well = lock(board).reports.iter().all(|report| !report.broken);
-            if all_well && let Some(edges) = &mut self.edges {
-                let arrived: Vec<Vec<u32>> =
-                    places[index].iter().map(|places| std::mem::take(&mut *lock(places))).collect();
-                edges.arrive(&arrived);
-            }
-            if index == 0 {
-                let reports = lock(board).reports.clone();
-                // The depth of the incoming states, once the initial ones are there.
-                let depth = self.levels.len() as u64;
-                let decided = catch_unwind(AssertUnwindSafe(|| leader(&reports, depth)));
-                let mut board = lock(board);
-                board.decision = decided.unwrap_or_else(|payload| {
-                    panic = Some(payload);
-                    Decision::Stop(None)
-                });
-                let states: u64 = reports.iter().map(|report| report.states).sum();
-                let bytes: u64 = reports.iter().map(|report| report.bytes).sum();
-                board.forgets_edges |= bytes > plan.max_bytes / 2 || reports.iter().any(|report| report.full);
-                board.quota = (plan.max_states.saturating_sub(states) / reports.len() as u64).max(1);
-            }
-            barrier.wait();
-            if let Some(panic) = panic {
-                resume_unwind(panic);
-            }
-            let (decision, forgets_edges);
-            (decision, quota, forgets_edges) = {
-                let board = lock(board);
-                (board.decision, board.quota, board.forgets_edges)
-            };
-            if forgets_edges {
-                self.edges = None;
-            }
-            settles = decision == Decision::Settle;
-            match decision {
-                Decision::Round | Decision::Settle => {}
-                Decision::Level => {
-                    self.store.forget_before(self.next);
-                    self.levels.push(self.store.len());
-                }
-                Decision::Stop(stop) => {
-                    self.unbounded.extend(explorer.unbounded());
-                    let executed = explorer.executed();
-                    self.executed.resize(executed.len(), 0);
-                    let pairs = self.executed.iter_mut().zip(executed);
-                    pairs.for_each(|(before, now)| *before |= u64::from(now));
-                    return stop;
-                }
-            }
-        }
-    }
-
     /// Findings at distances of which this worker has explored all states. Incoming states are at the next distance;
     /// steps may be missing at this one.
     pub fn certain(&self) -> impl Iterator<Item = &Found> {
@@ -382,7 +132,7 @@ impl Shard {
         })
     }
 
-    fn report(&self) -> Tally {
+    pub(super) fn report(&self) -> Tally {
         let end = self.levels.last().copied().unwrap_or(0);
         Tally {
             states: self.store.len() as u64,
@@ -406,7 +156,13 @@ impl Shard {
 
     /// Makes the steps of some states on the level and sends the successors to their owners. Returns `false` if the
     /// caller asked to stop while a state's steps were made; that state then counts as not expanded.
-    fn expand_round(&mut self, explorer: &mut Explorer, plan: &Plan, quota: u64, sent: &mut [Vec<u64>]) -> bool {
+    pub(super) fn expand_round(
+        &mut self,
+        explorer: &mut Explorer,
+        plan: &Plan,
+        quota: u64,
+        sent: &mut [Vec<u64>],
+    ) -> bool {
         let end = self.levels.last().copied().unwrap_or(0).min(self.next + ROUND);
         let words = explorer.words();
         let mut successors = Vec::new();
@@ -445,7 +201,6 @@ impl Shard {
                         edges.end(&expansion);
                     }
                     self.blocked += u64::from(is_blocked(explorer, plan, &expansion, &out[begin..]));
-                    self.compiled = self.compiled_before + explorer.compiled_states();
                     self.transitions += u64::from(expansion.moved);
                     made += u64::from(expansion.moved);
                     if expansion.moved == 0 || expansion.failed > 0 || expansion.faults != [0; 3] {
@@ -519,7 +274,7 @@ impl Shard {
     }
 
     /// Adds incoming states, or settles pending ones. Where edges are kept, says where each has its place.
-    fn take_in(
+    pub(super) fn take_in(
         &mut self,
         explorer: &mut Explorer,
         plan: &Plan,
