@@ -13,6 +13,9 @@ pub struct Mutant {
     #[cfg_attr(test, schemars(extend("const" = "mutant")))]
     r#type: &'static str,
     operator: &'static str,
+    /// The components of a chart's system that decide by it.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    components: Vec<String>,
     #[serde(flatten)]
     became: Became,
     #[serde(flatten)]
@@ -42,7 +45,7 @@ pub struct Became {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     states: Option<u64>,
     /// Of what is equivalent, the proof: `never-runs` or `same-steps`. Of what survived: `states`, `steps`, `nowhere`,
-    /// `within-bounds` or `unmeasured`. Otherwise a clause.
+    /// `within-bounds`, `left-out` or `unmeasured`. Otherwise a clause.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     why: Option<String>,
 }
@@ -58,6 +61,7 @@ impl Mutant {
         Mutant {
             r#type: "mutant",
             operator: candidate.mutant.operator.id(),
+            components: candidate.components.clone(),
             became: Became::of(outcome),
             place: Place::new(&sources, span),
             before: change.before,
@@ -88,7 +92,9 @@ impl Became {
             Outcome::Survived(unseen) => {
                 let states = match unseen {
                     Unseen::States(more) => Some(*more),
-                    Unseen::Steps | Unseen::Nowhere | Unseen::WithinBounds | Unseen::Unmeasured => None,
+                    Unseen::Steps | Unseen::Nowhere | Unseen::WithinBounds | Unseen::LeftOut | Unseen::Unmeasured => {
+                        None
+                    }
                 };
                 Became { states, ..plain("survived", Some(word_of(*unseen))) }
             }
@@ -112,7 +118,8 @@ impl Became {
                 Outcome::Killed(Killed { by, steps: steps? })
             }
             "survived" => {
-                let unseen = [Unseen::Steps, Unseen::Nowhere, Unseen::WithinBounds, Unseen::Unmeasured];
+                use Unseen::{LeftOut, Nowhere, Steps, Unmeasured, WithinBounds};
+                let unseen = [Steps, Nowhere, WithinBounds, LeftOut, Unmeasured];
                 let unseen = unseen.into_iter().chain(states.map(Unseen::States));
                 Outcome::Survived(unseen.into_iter().find(|unseen| why.as_deref() == Some(word_of(*unseen)))?)
             }
@@ -133,6 +140,7 @@ fn word_of(unseen: Unseen) -> &'static str {
         Unseen::Steps => "steps",
         Unseen::Nowhere => "nowhere",
         Unseen::WithinBounds => "within-bounds",
+        Unseen::LeftOut => "left-out",
         Unseen::Unmeasured => "unmeasured",
     }
 }
@@ -241,6 +249,7 @@ mod tests {
             Outcome::Survived(Unseen::Steps),
             Outcome::Survived(Unseen::Nowhere),
             Outcome::Survived(Unseen::WithinBounds),
+            Outcome::Survived(Unseen::LeftOut),
             Outcome::Survived(Unseen::Unmeasured),
             Outcome::Equivalent(Proof::NeverRuns),
             Outcome::Equivalent(Proof::SameSteps),

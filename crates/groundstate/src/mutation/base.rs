@@ -41,8 +41,8 @@ pub struct Unfit {
 #[derive(Debug)]
 pub(super) struct Judge {
     pub path: String,
-    /// It is the system that a chart draws.
-    pub is_system: bool,
+    /// If it is the system that a chart draws: the texts of the model that verifies it.
+    pub system: Option<Vec<Arc<str>>>,
     /// The paths of its texts.
     pub files: BTreeSet<String>,
     pub beside: Option<SourceFile>,
@@ -154,7 +154,7 @@ impl Bench {
         if bench.wanted.test {
             bench.play(workspace, interrupt, say);
         }
-        bench.collect_charts(&mut made);
+        bench.collect_charts(workspace, &mut made);
         bench.candidates = made.into_values().collect();
         bench.mutants = bench.candidates.len();
         bench.draw();
@@ -236,13 +236,15 @@ impl Bench {
         }
     }
 
-    /// Makes the mutants of charts. A chart is judged by its system, and by the models that have the model that is built of it.
-    fn collect_charts(&self, made: &mut Made) {
+    /// Makes the mutants of charts, and of the machines by which their components decide. They are judged by the chart's system, and by the
+    /// models that have the model that is built of it.
+    fn collect_charts<F: Files>(&self, workspace: &mut Workspace<F>, made: &mut Made) {
         for drawn in &self.drawn {
             let name = tidy(&drawn.chart.name);
             let shared = Arc::new(SourceFile::new(name.clone(), Arc::clone(&drawn.chart.text)));
-            let judges =
-                |judge: &&Judge| if judge.is_system { judge.path == name } else { judge.files.contains(&drawn.model) };
+            let judges = |judge: &&Judge| {
+                if judge.system.is_some() { judge.path == name } else { judge.files.contains(&drawn.model) }
+            };
             let models = self.judges.iter().enumerate().filter(|(_, judge)| judges(judge)).map(|(index, _)| index);
             let models: Vec<usize> = models.collect();
             let mutants = mutate::chart_mutants(&drawn.chart.text);
@@ -251,9 +253,36 @@ impl Bench {
                     file: Arc::clone(&shared),
                     mutant,
                     models: models.clone(),
-                    builds: Some(drawn.model.clone()),
+                    builds: vec![drawn.model.clone()],
+                    components: Vec::new(),
                 };
                 made.insert(key(&new), new);
+            }
+            self.collect_machines(drawn, &models, workspace, made);
+        }
+    }
+
+    /// Makes the mutants of the machines by which the components of a chart decide, whose judges have these numbers.
+    fn collect_machines<F: Files>(
+        &self,
+        drawn: &Drawn,
+        models: &[usize],
+        workspace: &mut Workspace<F>,
+        made: &mut Made,
+    ) {
+        for (path, components) in &drawn.machines {
+            let Ok(loaded) = workspace.load(path) else { continue };
+            let own = own_files(&loaded.sources);
+            let is_machine = |name: &str| self.wanted.imports || tidy(name) == *path;
+            for (id, file) in loaded.sources.iter().filter(|(id, file)| own(*id) && is_machine(&file.name)) {
+                let shared = Arc::new(SourceFile::new(tidy(&file.name), Arc::clone(&file.text)));
+                let mutants = mutants(&loaded.model, &loaded.sources, id);
+                for mutant in mutants.into_iter().filter(|mutant| self.is_wanted(mutant, &shared)) {
+                    let file = Arc::clone(&shared);
+                    let new = Candidate { file, mutant, models: vec![], builds: vec![], components: vec![] };
+                    let candidate = made.entry(key(&new)).or_insert(new);
+                    candidate.also(models, &drawn.model, components);
+                }
             }
         }
     }
@@ -278,7 +307,8 @@ impl Bench {
             let shared = Arc::new(SourceFile::new(name.clone(), Arc::clone(&file.text)));
             let mutants = mutants(&loaded.model, &loaded.sources, id);
             for mutant in mutants.into_iter().filter(|mutant| self.is_wanted(mutant, &shared)) {
-                let new = Candidate { file: Arc::clone(&shared), mutant, models: Vec::new(), builds: None };
+                let file = Arc::clone(&shared);
+                let new = Candidate { file, mutant, models: vec![], builds: vec![], components: vec![] };
                 made.entry(key(&new)).or_insert(new).models.extend(judge);
             }
         }
@@ -321,7 +351,7 @@ impl Bench {
         };
         let mut judge = Judge {
             path: path.to_string(),
-            is_system,
+            system: is_system.then(|| texts_of(&loaded)),
             files: loaded.sources.iter().map(|(_, file)| tidy(&file.name)).collect(),
             beside,
             asked,
@@ -447,6 +477,11 @@ impl Bench {
     }
 }
 
+/// The texts of a model.
+pub(super) fn texts_of(loaded: &Loaded) -> Vec<Arc<str>> {
+    loaded.sources.iter().map(|(_, file)| Arc::clone(&file.text)).collect()
+}
+
 /// What a model asks, or the system of a chart, by their texts as they are now.
 pub(super) fn asked<F: Files>(
     (path, is_system): (&str, bool),
@@ -489,7 +524,7 @@ impl Judge {
         self.counting = counting;
         let place = |span: &syntax::Span| (tidy(&loaded.sources.file(span.file).name), span.range());
         // The list is empty unless every state was visited. A system's rules stand in no text.
-        let unreachable = report.unreachable.iter().filter(|_| !self.is_system);
+        let unreachable = report.unreachable.iter().filter(|_| self.system.is_none());
         self.never = unreachable.map(place).collect();
     }
 }

@@ -4,8 +4,10 @@
 //! `verify` makes of its system. INVARIANT: a chart is mutated only if the model beside it is what is built of it, so that what judges
 //! the model as it is judges the chart.
 
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
+use chart::Chart;
 use inputs::verification;
 use program::Program;
 use syntax::{Diagnostic, FileId, SourceFile, Sources};
@@ -26,6 +28,8 @@ pub(super) struct Drawn {
     pub text: String,
     /// There is no such file; otherwise what the chart does not determine is kept from it.
     pub is_new: bool,
+    /// By their paths, the machines by which its components decide: the components' names.
+    pub machines: BTreeMap<String, Vec<String>>,
 }
 
 /// Why something cannot be judged, or cannot judge.
@@ -60,6 +64,21 @@ pub(super) fn model_of(chart: &str) -> String {
     tidy(&Path::new(chart).with_extension("asm").to_string_lossy())
 }
 
+/// The machines by which the components of a chart decide: their paths, and the names of the components.
+fn deciding(chart: &Chart) -> impl Iterator<Item = (String, String)> {
+    chart.system.iter().flat_map(|system| {
+        let name = |component: usize| system.components[component].name.clone();
+        system.computing.machines.iter().map(move |machine| (tidy(&machine.source.name), name(machine.component)))
+    })
+}
+
+/// The paths of the machines by which the components of a chart decide; none if the chart has faults.
+pub fn machines_of<F: Files>(path: &str, workspace: &mut Workspace<F>) -> BTreeSet<String> {
+    let Ok(chart) = workspace.text(path) else { return BTreeSet::new() };
+    let chart::Loaded { chart, .. } = chart::load(chart, &mut workspace.texts());
+    deciding(&chart).map(|(path, _)| path).collect()
+}
+
 /// Builds the model of a chart, by its text as it is now, into the model that is there, unless it is new.
 pub(super) fn built<F: Files>(path: &str, is_new: bool, workspace: &mut Workspace<F>) -> Result<Drawn, Trouble> {
     let chart = workspace.text(path).map_err(|absent| Trouble::plain(absent.told(path)))?;
@@ -67,7 +86,11 @@ pub(super) fn built<F: Files>(path: &str, is_new: bool, workspace: &mut Workspac
     let existing = workspace.text(&model).ok().map(|file| file.text).filter(|_| !is_new);
     let made = build_chart(chart.clone(), &model, existing.as_deref(), &mut workspace.texts());
     let Some(built) = made.built else { return Err(Trouble::of(made.faults)) };
-    Ok(Drawn { chart, model, text: built.text, is_new })
+    let mut machines: BTreeMap<String, Vec<String>> = BTreeMap::new();
+    for (path, component) in deciding(&made.chart) {
+        machines.entry(path).or_default().push(component);
+    }
+    Ok(Drawn { chart, model, text: built.text, is_new, machines })
 }
 
 /// The model that verifies the system of a chart, with what the file beside the chart asks.

@@ -12,7 +12,7 @@ use scenario::FailureKind;
 use verify::{NoStart, Reason, Report, Stop, Subject};
 
 use super::ask::Asked;
-use super::base::{Bench, Judge, asked, play_options};
+use super::base::{Bench, Judge, asked, play_options, texts_of};
 use super::drawn::{self, Trouble, declare_alike};
 use super::link::{self, Link, Says};
 use super::outcome::{By, Killed, Outcome, Proof, Unseen};
@@ -62,37 +62,45 @@ impl<F: Files> Worker<F> {
         let outcome = self.build(&bench, candidate).and_then(|()| self.judged(&bench, candidate, &interrupt));
         timer.end(&interrupt);
         self.workspace.close(path);
-        for drawn in bench.drawn.iter().filter(|drawn| candidate.builds.as_ref() == Some(&drawn.model)) {
+        for drawn in bench.drawn.iter().filter(|drawn| candidate.builds.contains(&drawn.model)) {
             self.version += 1;
             let _ = self.workspace.set_text(&drawn.model, self.version, drawn.text.as_str());
         }
         outcome.unwrap_or_else(|outcome| outcome)
     }
 
-    /// Builds the model of a chart that is a mutant.
+    /// Builds the models of the charts of which the mutant is a part.
     fn build(&mut self, bench: &Bench, candidate: &Candidate) -> Result<(), Outcome> {
-        let base = bench.drawn.iter().find(|drawn| candidate.builds.as_ref() == Some(&drawn.model));
-        let Some(base) = base else { return Ok(()) };
-        let drawn = drawn::built(&candidate.file.name, base.is_new, &mut self.workspace);
-        let drawn = drawn.map_err(|trouble| not_compiled(&trouble.faults))?;
-        // An initial state that is not the chart's own is kept, so the model would not show the fault.
-        if candidate.mutant.operator == Operator::StartMoved && drawn.text == base.text {
-            return Err(Outcome::Open(format!("{} keeps its own initial state", base.model)));
+        for base in bench.drawn.iter().filter(|drawn| candidate.builds.contains(&drawn.model)) {
+            let drawn = drawn::built(&base.chart.name, base.is_new, &mut self.workspace);
+            let drawn = drawn.map_err(|trouble| not_compiled(&trouble.faults))?;
+            // An initial state that is not the chart's own is kept, so the model would not show the fault.
+            if candidate.mutant.operator == Operator::StartMoved && drawn.text == base.text {
+                return Err(Outcome::Open(format!("{} keeps its own initial state", base.model)));
+            }
+            let set = self.workspace.set_text(&drawn.model, self.version, drawn.text);
+            set.map_err(|_| Outcome::Open("its model could not be set".to_string()))?;
         }
-        let set = self.workspace.set_text(&drawn.model, self.version, drawn.text);
-        set.map_err(|_| Outcome::Open("its model could not be set".to_string()))
+        Ok(())
     }
 
     /// The outcome; as an error if it ends the judgement early.
     fn judged(&mut self, bench: &Bench, candidate: &Candidate, interrupt: &Interrupt) -> Result<Outcome, Outcome> {
         let mut open = None;
         let mut variants = Vec::new();
+        let mut is_left_out = false;
         for judge in candidate.models.iter().map(|index| &bench.judges[*index]) {
             if judge.never_runs(candidate) {
                 continue;
             }
-            let asked = asked((&judge.path, judge.is_system), judge.beside.as_ref(), &mut self.workspace);
-            let asked = asked.map_err(refused)?.1.counting(&judge.counting);
+            let asked = asked((&judge.path, judge.system.is_some()), judge.beside.as_ref(), &mut self.workspace);
+            let (loaded, asked) = asked.map_err(refused)?;
+            // A machine on which no property of the system rests is no part of the model that verifies it.
+            if judge.system.as_ref().is_some_and(|texts| *texts == texts_of(&loaded)) {
+                is_left_out = true;
+                continue;
+            }
+            let asked = asked.counting(&judge.counting);
             let said = match bench.wanted.verify {
                 true => verified(bench, judge, &asked, interrupt)?,
                 false => Said::Passes(None),
@@ -107,7 +115,10 @@ impl<F: Files> Worker<F> {
         if let Some(why) = open {
             return Ok(Outcome::Open(why));
         }
-        Ok(compared(bench, candidate, variants, interrupt))
+        Ok(match compared(bench, candidate, variants, interrupt) {
+            Outcome::Survived(Unseen::Nowhere) if is_left_out => Outcome::Survived(Unseen::LeftOut),
+            outcome => outcome,
+        })
     }
 
     /// Runs the scenarios that run the mutated text.
@@ -120,7 +131,7 @@ impl<F: Files> Worker<F> {
     ) -> Result<(), Outcome> {
         let mut suite = Suite::new();
         let options = play_options(&bench.wanted.extent, interrupt);
-        for play in bench.plays.iter().filter(|play| play.files.contains(candidate.runs())) {
+        for play in bench.plays.iter().filter(|play| candidate.is_in(&play.files)) {
             let Ok(source) = self.workspace.text(&play.path) else { continue };
             let texts = &mut self.workspace.texts();
             let tested = suite.test(source, texts, options.clone(), &mut SeededChoices::new(0));
@@ -152,7 +163,7 @@ impl<F: Files> Worker<F> {
         interrupt: &Interrupt,
         open: &mut Option<String>,
     ) -> Result<(), Outcome> {
-        for link in bench.links.iter().filter(|link| link.files.contains(candidate.runs())) {
+        for link in bench.links.iter().filter(|link| candidate.is_in(&link.files)) {
             match link::ask(&link.path, &mut self.workspace, &bench.wanted.extent, interrupt).1 {
                 Says::Refines => {}
                 Says::DoesNot(steps) => {
@@ -282,10 +293,10 @@ fn compared(
     }
     // A model of a coupling that does not judge by its properties was not explored.
     let explored = |model: &String| candidate.models.iter().any(|index| bench.judges[*index].path == *model);
-    let about = |link: &&Link| link.files.contains(candidate.runs());
+    let about = |link: &&Link| candidate.is_in(&link.files);
     let all = bench.links.iter().filter(about).all(|link| link.models.iter().all(explored));
     // The model that verifies a system leaves out what no property looks at.
-    let all = all && !candidate.models.iter().any(|index| bench.judges[*index].is_system);
+    let all = all && !candidate.models.iter().any(|index| bench.judges[*index].system.is_some());
     match (more, steps, unmeasured) {
         (0, false, false) if candidate.models.is_empty() => Outcome::Survived(Unseen::Unmeasured),
         (0, false, false) if !(bench.wanted.whole && all) => Outcome::Survived(Unseen::Nowhere),
@@ -307,11 +318,13 @@ fn are_same(
     interrupt: &Interrupt,
 ) -> Result<(), Differs> {
     let mut asked = judge.asked.clone();
-    if candidate.builds.is_some() && !declare_alike(asked.program(), mutated.program()) {
+    if !candidate.builds.is_empty() && !declare_alike(asked.program(), mutated.program()) {
         return Err(Differs::Beyond);
     }
     let mut observed = [Vec::new(), Vec::new()];
-    if let Some(function) = &candidate.mutant.function {
+    // In a system, functions of a machine have other names; nothing is equivalent there.
+    let function = candidate.mutant.function.as_ref().filter(|_| judge.system.is_none());
+    if let Some(function) = function {
         for (asked, observed) in [&mut asked, &mut mutated].into_iter().zip(&mut observed) {
             observed.push(asked.values_of(&function.name, &function.parameters).ok_or(Differs::Beyond)?);
         }

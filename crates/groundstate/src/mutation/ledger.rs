@@ -33,7 +33,7 @@ impl Bench {
     /// The key of the mutant of this number.
     pub fn key(&self, number: usize) -> String {
         let candidate = &self.candidates[number];
-        let Candidate { file, mutant, models, builds } = candidate;
+        let Candidate { file, mutant, models, builds, components: _ } = candidate;
         let super::Wanted { verify, test, refine, whole, extent, .. } = &self.wanted;
         let machine::Limits { iterations, call_depth, collection, updates, locations, work, interrupt: _ } =
             &extent.limits;
@@ -46,18 +46,18 @@ impl Bench {
         for edit in &mutant.edits {
             let _ = writeln!(told, "{:?} {:?}", edit.range, edit.text);
         }
-        for drawn in self.drawn.iter().filter(|drawn| builds.as_ref() == Some(&drawn.model)) {
+        for drawn in self.drawn.iter().filter(|drawn| builds.contains(&drawn.model)) {
             let _ = writeln!(told, "{} {} {}", drawn.model, drawn.is_new, text_fingerprint(&drawn.text));
         }
         for judge in models.iter().map(|index| &self.judges[*index]) {
             told += &judge.print;
             told.push('\n');
         }
-        for play in self.plays.iter().filter(|play| play.files.contains(candidate.runs())) {
+        for play in self.plays.iter().filter(|play| candidate.is_in(&play.files)) {
             told += &play.print;
             told.push('\n');
         }
-        for link in self.links.iter().filter(|link| link.files.contains(candidate.runs())) {
+        for link in self.links.iter().filter(|link| candidate.is_in(&link.files)) {
             told += &link.print;
             told.push('\n');
         }

@@ -22,6 +22,7 @@ use mutate::{Change, Mutant, Operator};
 use syntax::{LineColumn, SourceFile};
 
 pub use base::{Bench, Judging, Unfit};
+pub use drawn::machines_of;
 pub use judge::Worker;
 pub use ledger::Ledger;
 pub use outcome::{By, Killed, Outcome, Proof, Score, Unseen, score, surprising};
@@ -89,8 +90,10 @@ pub struct Candidate {
     pub mutant: Mutant,
     /// The models, by number, that run what is mutated.
     pub models: Vec<usize>,
-    /// The path of the model that is built of the text, if that is a chart.
-    pub builds: Option<String>,
+    /// The paths of the models that are built of the text: of a chart, or of a machine by which components of a chart decide.
+    pub builds: Vec<String>,
+    /// Of such a machine: the components.
+    pub components: Vec<String>,
 }
 
 impl Candidate {
@@ -99,9 +102,19 @@ impl Candidate {
         self.file.line_column(self.mutant.place.start as u32)
     }
 
-    /// The path of the text that runs.
-    pub(super) fn runs(&self) -> &str {
-        self.builds.as_deref().unwrap_or(&self.file.name)
+    /// Whether the mutated text, or what is built of it, is one of these.
+    pub(super) fn is_in(&self, files: &BTreeSet<String>) -> bool {
+        files.contains(&self.file.name) || self.builds.iter().any(|model| files.contains(model))
+    }
+
+    /// Components of one more chart decide by the text: these models judge, and this one is built.
+    fn also(&mut self, models: &[usize], builds: &str, components: &[String]) {
+        let models: Vec<usize> = models.iter().copied().filter(|model| !self.models.contains(model)).collect();
+        self.models.extend(models);
+        if !self.builds.iter().any(|model| model == builds) {
+            self.builds.push(builds.to_string());
+            self.components.extend_from_slice(components);
+        }
     }
 
     /// The lines that the fault changes.

@@ -64,6 +64,8 @@ pub enum Unseen {
     Nowhere,
     /// In no reachable state within the bounds of inputs, which leave values out.
     WithinBounds,
+    /// The model that verifies the system leaves it out, for no property of the system rests on it.
+    LeftOut,
     /// The models' states were not all visited.
     Unmeasured,
 }
@@ -94,6 +96,7 @@ impl Outcome {
                 Unseen::Steps => "as many states, other steps".to_string(),
                 Unseen::Nowhere => "no reachable state differs".to_string(),
                 Unseen::WithinBounds => "no reachable state differs within the bounds of inputs".to_string(),
+                Unseen::LeftOut => "no property of the system rests on it".to_string(),
                 Unseen::Unmeasured => "not compared in every state".to_string(),
             },
             Outcome::Equivalent(Proof::NeverRuns) => "no reachable state runs it".to_string(),
@@ -176,7 +179,7 @@ pub fn score<'o>(outcomes: impl IntoIterator<Item = &'o Outcome>) -> Score {
 }
 
 /// The survivors, the most surprising first: those with the largest difference in reachable states, then those with as many
-/// states but perhaps other steps, then those that were not measured, at last those that differ in no reachable state; among
+/// states but perhaps other steps, then those that were left out or not measured, at last those that differ in no reachable state; among
 /// equals in the order of operators and of the text.
 pub fn surprising<'o>(judged: &'o [(Candidate, Outcome)]) -> Vec<(&'o Candidate, Unseen)> {
     let unseen = |(candidate, outcome): &'o (Candidate, Outcome)| match outcome {
@@ -187,7 +190,7 @@ pub fn surprising<'o>(judged: &'o [(Candidate, Outcome)]) -> Vec<(&'o Candidate,
     let rank = |unseen: Unseen| match unseen {
         Unseen::States(more) => (0, u64::MAX - more),
         Unseen::Steps => (1, 0),
-        Unseen::Unmeasured => (2, 0),
+        Unseen::LeftOut | Unseen::Unmeasured => (2, 0),
         Unseen::Nowhere | Unseen::WithinBounds => (3, 0),
     };
     survivors.sort_by(|(one, one_seen), (other, other_seen)| {

@@ -15,9 +15,10 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use clap::Args;
+use groundstate::Workspace;
 use groundstate::job::{self, Cancel, Hands, MutateEvent};
 use groundstate::mutate::Operator;
-use groundstate::mutation::{Bench, Extent, Ledger, Wanted, mutation_page};
+use groundstate::mutation::{Bench, Extent, Ledger, Wanted, machines_of, mutation_page};
 
 use crate::exit::Exit;
 use crate::failure::Failure;
@@ -108,7 +109,12 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     }
     let found = Found::new(&arguments.paths, &arguments.by)?;
     let lines = match &arguments.since {
-        Some(revision) => Some(since::changed_lines(revision, &found.mutated)?),
+        Some(revision) => {
+            let mut workspace = Workspace::new(Disk { limit: shell.global.limits.max_file_size });
+            let machines = found.charts.iter().flat_map(|chart| machines_of(chart, &mut workspace));
+            let texts = found.mutated.iter().cloned().chain(machines).collect();
+            Some(since::changed_lines(revision, &texts)?)
+        }
         None => None,
     };
     let jobs = arguments

@@ -2,6 +2,7 @@
 //!
 //! In: the outcomes. Out: text or JSON, and the exit code.
 
+use std::collections::BTreeMap;
 use std::io::Write;
 
 use groundstate::job::Mutated;
@@ -69,11 +70,17 @@ fn mutants(shell: &mut Shell, judged: &[(Candidate, Outcome)], all: bool) -> Res
     Ok(())
 }
 
+/// Which components decide by what is mutated, as an addition.
+fn within(components: &[String]) -> String {
+    if components.is_empty() { String::new() } else { format!(" of {}", components.join(", ")) }
+}
+
 /// A mutant: what became of it, where it is, what it changes.
 fn one(shell: &mut Shell, word: &str, candidate: &Candidate, outcome: &Outcome) -> Result<(), Failure> {
     let (place, name) = (candidate.place(), &candidate.file.name);
     let operator = candidate.mutant.operator.id();
-    writeln!(shell.out(), "{word:<9} {name}:{}:{} {operator}: {}", place.line, place.column, outcome.remark())?;
+    let within = within(&candidate.components);
+    writeln!(shell.out(), "{word:<9} {name}:{}:{} {operator}{within}: {}", place.line, place.column, outcome.remark())?;
     let Change { before, after, .. } = candidate.change();
     let indent = before.iter().chain(&after).filter(|line| !line.trim().is_empty());
     let indent = indent.map(|line| line.len() - line.trim_start().len()).min().unwrap_or(0);
@@ -133,6 +140,25 @@ fn summary(shell: &mut Shell, mutated: &Mutated, score: &Score, sampled: bool) -
             line += &format!("; {of_all:.1} % with the equivalent ones counted as survivors");
         }
         writeln!(shell.out(), "{line}")?;
+    }
+    if bench.candidates.iter().any(|candidate| !candidate.components.is_empty()) {
+        writeln!(shell.out(), "killed of those killed or survived:")?;
+        parts_of_system(shell, mutated)?;
+    }
+    Ok(())
+}
+
+/// Of a system, how many mutants of the chart were killed, and of each machine by which its components decide.
+fn parts_of_system(shell: &mut Shell, mutated: &Mutated) -> Result<(), Failure> {
+    let mut parts: BTreeMap<(&[String], &str), Vec<&Outcome>> = BTreeMap::new();
+    for (candidate, outcome) in mutated.bench.candidates.iter().zip(&mutated.outcomes) {
+        let part = (candidate.components.as_slice(), candidate.file.name.as_str());
+        parts.entry(part).or_default().extend(outcome);
+    }
+    for ((components, name), outcomes) in parts {
+        let score = score(outcomes);
+        let (killed, of, within) = (score.killed(), score.noticeable(), within(components));
+        writeln!(shell.out(), "  {killed} of {of} in {name}{within}")?;
     }
     Ok(())
 }
