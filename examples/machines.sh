@@ -164,7 +164,8 @@ press_cell() {
     expect 0 "" "$groundstate" chart check "$program/Press.chart"
     holds PressCell Gauge Press
     expect 0 "^holds     inv_age1_height_to_motor" "$groundstate" verify "$program/PressCell.chart"
-    expect 0 "1 passed" "$groundstate" test "$program"
+    expect 0 "^holds     ag(ef(controller_command = LOWER))" "$groundstate" verify "$program/PressCell.chart"
+    expect 0 "2 passed" "$groundstate" test "$program"
     # A path at one of the states only does not come before its other paths.
     drawn "no inconsistent update" "working -> danger" "lowering -> danger"
     drawn ctlSpec_still "Curtain broken\" {curtain}" "Curtain broken\" {curtain and mode = LOWERING}"
@@ -172,9 +173,9 @@ press_cell() {
 " ""
     drawn inv_moves "		entry lampOn \"LAMP ON\" {lamp := true}
 " ""
-    drawn ltlSpec_down "initial state lowering \"Lowering\"
-		state raising" "state lowering \"Lowering\"
-		initial state raising"
+    drawn ltlSpec_down "begin -> lowering" "begin -> raising"
+    # A press that begins where the last stroke ended goes down once only.
+    drawn ctlSpec_lowers "begin -> lowering" "begin -> working"
     found ctlSpec_still Press.asm "if curtain or mode = IDLE or" "if mode = IDLE or"
     # A channel whose type has the name of a domain; a class of the user that decides otherwise.
     cell=$out/examples/cell

@@ -36,8 +36,9 @@ definitions:
 	LTLSPEC ltlSpec_lowersOn: g(mode = LOWERING and y(mode = STOPPED) implies y(s(mode = STOPPED, mode = LOWERING)))
 	LTLSPEC ltlSpec_raisesOn: g(mode = RAISING and y(mode = STOPPED) implies y(s(mode = STOPPED, mode = RAISING)))
 
-	/* whatever has happened, a stroke can be finished */
+	/* whatever has happened, a stroke can be finished, and another one goes down */
 	CTLSPEC ctlSpec_finishes: ag(ef(done and mode = IDLE))
+	CTLSPEC ctlSpec_lowers: ag(ef(command = LOWER))
 
 	/* it comes up only if it was down since it began */
 	LTLSPEC ltlSpec_down: g(mode = RAISING implies o(isNewPosition and position = LOW))
@@ -50,17 +51,8 @@ definitions:
 				if start and not curtain then
 					par
 						done := false
-						if workingLeft = RAISING then
-							par
-								lamp := true
-								mode := RAISING
-							endpar
-						else
-							par
-								lamp := true
-								mode := LOWERING
-							endpar
-						endif
+						lamp := true
+						mode := LOWERING
 					endpar
 				endif
 			endif

@@ -84,17 +84,8 @@ definitions:
 				if start and not curtain then
 					par
 						controller_done := false
-						if controller_workingLeft = CONTROLLER_RAISING then
-							par
-								lamp := true
-								controller_mode := CONTROLLER_RAISING
-							endpar
-						else
-							par
-								lamp := true
-								controller_mode := CONTROLLER_LOWERING
-							endpar
-						endif
+						lamp := true
+						controller_mode := CONTROLLER_LOWERING
 					endpar
 				endif
 			endif
@@ -342,7 +333,7 @@ default init s0:
 	function way_hop($w in Way) = bound1_hop2
 	function way_end($w in Way) = drive
 	function way_decided($w in Way) = drive_move
-	function way_limit($w in Way) = 80
+	function way_limit($w in Way) = 36
 	function phaseBefore($c in Scheduler) =
 		switch $c
 			case gauge: gauge_wait
