@@ -131,6 +131,9 @@ definitions:
 		contact != OVERLOAD and not isNewContact
 		implies ef(state = ALIGNED) and ef(state = PLACED) and ef(state = RETRACTED)
 
+	/* without another image it goes on for 100 ms */
+	CTLSPEC ctlSpec_patient: contact != OVERLOAD and not isNewContact implies ef(motion = DOWN and unseen = 50)
+
 	main rule r_Main =
 		par
 			r_count[]
