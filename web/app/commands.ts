@@ -44,9 +44,11 @@ export function jobsFor(studio: Studio, uri: string | null): { job: JobKind; act
       const show = (job: JobKind, panel: 'times' | 'code') => ({ job, act: () => studio.store.set({ panel }) })
       const times = system ? [show('times', 'times')] : []
       const program = system && !studio.hello.readOnly ? [start('program')] : []
-      const rest = studio.sibling(file, 'asm') ? [start('check'), onModel('test'), onModel('graph'), onModel('review'), onModel('mutate')] : []
+      const rest = studio.sibling(file, 'asm') ? [start('check'), onModel('test'), onModel('graph'), onModel('review'), ...(system ? [] : [onModel('mutate')])] : []
+      // Of a system, its times and channels have faults too, and the machines that it names.
+      const mutate = system ? [start('mutate')] : []
       const generate = system ? [start('generate')] : studio.sibling(file, 'asm') ? [onModel('generate')] : []
-      return [...(studio.hello.readOnly ? [] : [start('build')]), verify, ...times, ...rest, ...generate, ...program]
+      return [...(studio.hello.readOnly ? [] : [start('build')]), verify, ...times, ...rest, ...mutate, ...generate, ...program]
     }
     case 'model':
       return [start('verify'), start('test'), start('graph'), start('review'), start('mutate'), start('generate')]

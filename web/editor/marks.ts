@@ -29,6 +29,8 @@ export interface Mutant extends LinePlace {
   after: string[]
   why?: string
   states?: number
+  // The components of a system that decide by it.
+  components?: string[]
 }
 
 interface Uncovered extends LinePlace {
@@ -50,7 +52,7 @@ export const coverages = (job: Job): CoverageLine[] => lines(job, 'coverage') as
 
 const squeezed = (text: string[]): string => text.join(' ').replace(/\s+/g, ' ').trim()
 
-export const mutantTold = (mutant: Mutant): string => words.marks.survived(mutant.operator, squeezed(mutant.before), squeezed(mutant.after))
+export const mutantTold = (mutant: Mutant): string => words.marks.survived([mutant.operator, ...(mutant.components ?? [])].join(', '), squeezed(mutant.before), squeezed(mutant.after))
 
 export const rangeOf = (place: LinePlace): Range => ({
   start: { line: place.line - 1, character: place.column - 1 },
@@ -121,6 +123,8 @@ export class Marks {
     const of = new Map<string, Covered>()
     for (const uri of new Set([...found.keys(), ...covers])) {
       const model = uri === undefined ? undefined : this.studio.file(uri)
+      // What is said of a chart's own text stands on its shapes already.
+      if (model?.kind === 'chart') continue
       const chart = model && this.studio.sibling(model, 'chart')
       const drawings = chart && this.studio.chart(chart.uri)?.store.get().pictures?.drawings
       // What a job said of another text is said of no shape.

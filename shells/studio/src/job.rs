@@ -174,7 +174,7 @@ pub fn words(job: &str, path: &str, options: &Value) -> Result<Vec<String>, Stri
         "build" if is_chart => &["chart", "build"],
         "generate" if is_chart || kind == Some(Kind::Model) => &["generate", "cpp"],
         "review" if kind == Some(Kind::Model) => &["review"],
-        "mutate" if kind == Some(Kind::Model) => &["mutate"],
+        "mutate" if is_chart || kind == Some(Kind::Model) => &["mutate"],
         "graph" if kind == Some(Kind::Model) => &["graph"],
         "verify" | "test" | "build" | "generate" | "review" | "times" | "mutate" | "graph" => {
             let what = match job {
@@ -424,6 +424,7 @@ mod tests {
         of_scenarios(&mut played, &["b/-x.avalla".to_string(), "b/y.avalla".to_string()]);
         assert_eq!(played.join(" "), "test ./b/-x.avalla ./b/y.avalla --within . --format json");
         assert_eq!(check("mutate", "a.asm", json!({})), Ok("mutate ./a.asm --within . --format json".into()));
+        assert_eq!(check("mutate", "a.chart", json!({})), Ok("mutate ./a.chart --within . --format json".into()));
         assert_eq!(
             check("graph", "a.chart", json!({})),
             Err("there is nothing to draw a state graph of in a.chart".into())
