@@ -8,6 +8,7 @@ import { LanguageClient, type LanguageClientOptions, type ServerOptions } from "
 
 import { registerCharts } from "./chart";
 import { registerDebugger } from "./debugging";
+import { registerMutants } from "./mutants";
 import { installedIn, program } from "./program";
 import { registerReports } from "./report";
 import { registerRunning } from "./running";
@@ -96,6 +97,7 @@ export async function activate(context: ExtensionContext): Promise<void> {
   registerCharts(context, send);
   registerReports(context);
   registerVerification(context);
+  registerMutants(context);
   registerTasks(context);
   registerState(context, send);
   await start();

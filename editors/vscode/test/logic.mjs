@@ -49,6 +49,15 @@ await test("answers that are none are left out", () => {
   });
 });
 
+await test("mutants", () => {
+  const one = { type: "mutant", outcome: "survived", operator: "rule-deleted", components: ["eye"], before: ["  x := 1", "y"], after: [], file: "b.asm", line: 2, column: 3 };
+  assert.equal(results.mutant(one, "/a").told, "nobody notices if this changes in eye (rule-deleted): x := 1 y \u2192 nothing");
+  assert.equal(results.mutant(one, "/a").at.line, 1);
+  for (const odd of [{ type: "mutant" }, { type: "mutant", before: 3, components: "x" }]) results.mutant(odd, "/a");
+  assert.equal(results.mutation({ type: "mutation", survived: 1, judged: 1, score: null }), "1 of 1 mutant not noticed");
+  assert.equal(results.mutation(one), undefined);
+});
+
 await test("counterexamples are found by their names", () => {
   const taken = new Set();
   const files = ["in-domain.avalla", "inv_a.avalla", "inv_a.trace"];

@@ -9,7 +9,7 @@ import { fileURLToPath, pathToFileURL } from "node:url";
 const disposable = { dispose() {} };
 const never = () => disposable;
 
-export const seen = { commands: new Map(), configuration: {}, trees: new Map(), errors: [], debugged: [], notes: [], panels: [], runs: [] };
+export const seen = { commands: new Map(), configuration: {}, trees: new Map(), errors: [], debugged: [], notes: [], panels: [], runs: [], told: [], hints: new Map() };
 export const answers = [];
 export const active = { file: undefined };
 export const folder = { path: "." };
@@ -85,6 +85,11 @@ export class StatementCoverage {
     Object.assign(this, { executed, location });
   }
 }
+export class Diagnostic {
+  constructor(range, message, severity) {
+    Object.assign(this, { range, message, severity });
+  }
+}
 export class DebugAdapterExecutable {
   constructor(command, args) {
     Object.assign(this, { command, args });
@@ -96,6 +101,7 @@ export class Task {
     Object.assign(this, { definition, scope, name, source, execution, matchers });
   }
 }
+export const DiagnosticSeverity = { Error: 0, Warning: 1, Information: 2, Hint: 3 };
 export const TreeItemCollapsibleState = { Expanded: 2 };
 export const TestRunProfileKind = { Run: 1, Debug: 2, Coverage: 3 };
 export const TaskScope = { Workspace: 2 };
@@ -154,6 +160,7 @@ export const window = {
     return panel;
   },
   showErrorMessage: async (text) => void seen.errors.push(text),
+  showInformationMessage: async (text) => void seen.told.push(text),
   showInputBox: async () => answers.shift(),
   showTextDocument: async (uri) => ((active.file = uri.fsPath), editor()),
   withProgress: (options, work) => work({ report() {} }, { onCancellationRequested: never }),
@@ -173,7 +180,11 @@ export const workspace = {
   findFiles: async () => fs.readdirSync(folder.path).filter((name) => name.endsWith(".avalla")).map((name) => Uri.file(path.join(folder.path, name))),
   fs: { readFile: async (uri) => fs.readFileSync(uri.fsPath) },
   createFileSystemWatcher: () => ({ onDidCreate: never, onDidChange: never, onDidDelete: never, dispose() {} }),
-  onDidChangeTextDocument: (work) => ((seen.typed = work), disposable),
+  onDidChangeTextDocument: (work) => {
+    const others = seen.typed;
+    seen.typed = (change) => (others?.(change), work(change));
+    return disposable;
+  },
   onDidSaveTextDocument: (work) => ((seen.saved = work), disposable),
   onDidChangeConfiguration: never,
 };
@@ -213,5 +224,13 @@ export const tests = {
     };
     return seen.controller;
   },
+};
+export const languages = {
+  createDiagnosticCollection: () => ({
+    set: (uri, all) => seen.hints.set(uri.fsPath, all),
+    delete: (uri) => seen.hints.delete(uri.fsPath),
+    clear: () => seen.hints.clear(),
+    dispose() {},
+  }),
 };
 export const env = { openExternal: async () => true };

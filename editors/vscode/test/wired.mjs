@@ -108,7 +108,8 @@ const opens = "scenario opens\nload Door.asm\nset key := true;\nstep\ncheck door
 file("Opens.avalla", opens);
 file("Shuts.avalla", `${opens.replace("opens", "shuts").replace("= OPEN", "= SHUT")}`);
 
-const context = { subscriptions: [], extensionPath: root, extensionUri: vscode.Uri.file(root) };
+const storageUri = vscode.Uri.file(path.join(folder.path, "kept"));
+const context = { subscriptions: [], storageUri, extensionPath: root, extensionUri: vscode.Uri.file(root) };
 await activate(context);
 const command = (name, ...words) => seen.commands.get(`groundstate.${name}`)(...words);
 const rows = (id) => {
@@ -184,6 +185,39 @@ const broken = file("Broken.asm", "asm Broken\n");
 await command("verify", pathToFileURL(broken).href);
 assert.deepEqual(rows("groundstate.verification"), []);
 
+// Mutants: a hint where nobody would notice a fault, until the text is changed; outcomes are kept.
+const lamp = file("Lamp.asm", `asm Lamp
+import StandardLibrary
+signature:
+	monitored held: Boolean
+	controlled lit: Boolean
+	controlled worn: Boolean
+definitions:
+	invariant inv_worn over lit: lit implies worn
+	main rule r_Main = if held then par lit := true worn := true endpar endif
+default init s0:
+	function lit = false
+	function worn = false
+`);
+await command("mutate", pathToFileURL(lamp).href);
+const hints = seen.hints.get(lamp);
+assert.ok(hints.some(({ range, message, severity }) => range.start.line === 8 && severity === 3 && /guard-false/.test(message)), JSON.stringify([hints, seen.errors]));
+assert.match(seen.told.pop(), /^Lamp\.asm: \d+ of \d+ mutants not noticed, score [\d.]+ %$/);
+assert.match(fs.readFileSync(path.join(folder.path, "kept", "mutants.jsonl"), "utf8").split("\n")[0], /mutation-results/);
+seen.typed({ document: { uri: vscode.Uri.file(lamp) }, contentChanges: [{}] });
+assert.equal(seen.hints.size, 0);
+await command("mutate", pathToFileURL(lamp).href);
+assert.equal(seen.hints.get(lamp).length, hints.length);
+await command("mutate.clear");
+assert.equal(seen.hints.size, 0);
+// What does not pass as it is has no mutants: that is told.
+await command("mutate", pathToFileURL(model).href);
+assert.match(seen.errors.pop(), /^Door\.asm: .*violated/);
+active.file = undefined;
+await command("mutate");
+assert.match(seen.errors.pop(), /Open a model/);
+active.file = model;
+
 // Debugger, tasks, charts.
 assert.deepEqual({ ...seen.adapter.createDebugAdapterDescriptor() }, { command: program, args: ["dap"] });
 active.file = model;
@@ -234,7 +268,7 @@ const typed = async (version, text) => {
   const method = version === 1 ? "textDocument/didOpen" : "textDocument/didChange";
   const textDocument = { uri: document.uri.toString(), languageId: "groundstate-chart", version, text };
   client.write({ method, params: version === 1 ? { textDocument } : { textDocument, contentChanges: [{ text }] } });
-  seen.typed({ document });
+  seen.typed({ document, contentChanges: [{ text }] });
   await until(() => panel.told.filter(({ kind }) => kind === "drawings").length > before, "nothing was drawn anew");
 };
 await typed(1, "chart Small\nmachine lamp\n\tcontrol {door}\n\tinitial state open \"Open\" {OPEN}\n\tstate shut \"Shut\" {SHUT}\n\topen -> shut\n\tshut -> open\nendmachine\n");

@@ -1,4 +1,4 @@
-// The answers of `groundstate test` and `groundstate verify`, as objects of `--format json`.
+// The answers of `groundstate test`, `verify` and `mutate`, as objects of `--format json`.
 //
 // In: one object after the other. Out: what the views show of it. Lines and columns come from 1 and go out from 0. It must not
 // know VS Code.
@@ -130,6 +130,39 @@ export function explored(object: Json): string | undefined {
   if (object.type !== "explored") return undefined;
   const complete = object.complete === true ? "all" : "not all";
   return `${complete} states explored: ${number(object.states)}, to a depth of ${number(object.depth)}`;
+}
+
+export interface Mutant {
+  // `killed`, `survived` and others.
+  outcome: string;
+  operator: string;
+  at: Spot | undefined;
+  // What the fault is.
+  told: string;
+}
+
+// What became of a mutant; none if the object is something else.
+export function mutant(object: Json, folder: string): Mutant | undefined {
+  if (object.type !== "mutant") return undefined;
+  const shown = (value: unknown) => (Array.isArray(value) ? value.map(text).join(" ").replace(/\s+/g, " ").trim() : "");
+  const operator = text(object.operator);
+  const components = Array.isArray(object.components) ? object.components.map(text).filter(Boolean) : [];
+  const within = components.length ? ` in ${components.join(", ")}` : "";
+  const told = `nobody notices if this changes${within} (${operator}): ${shown(object.before)} \u2192 ${shown(object.after) || "nothing"}`;
+  return { outcome: text(object.outcome), operator, at: spot(object, folder), told };
+}
+
+// How many mutants came to what; none if the object is something else.
+export function mutation(object: Json): string | undefined {
+  if (object.type !== "mutation") return undefined;
+  const [survived, all] = [number(object.survived), number(object.judged)];
+  const score = typeof object.score === "number" ? `, score ${object.score} %` : "";
+  return `${survived} of ${all} ${all === 1 ? "mutant" : "mutants"} not noticed${score}`;
+}
+
+// Why the program did not do its work; none if the object is something else.
+export function failed(object: Json): string | undefined {
+  return object.type === "failure" ? text(object.message) : undefined;
 }
 
 // The file of the counterexample of a check, among those written to a folder: names are made fit for files, and numbered where two
