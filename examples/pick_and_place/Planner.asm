@@ -114,6 +114,45 @@ definitions:
 						work = LOOKING,
 						work = LOOKING and isNewSight and y(s(work = LOOKING, work = LOOKING and isNewSight))))))
 
+	/* the row begins empty; each part that was put down counts, and nothing else does */
+	LTLSPEC ltlSpec_begins: work = LOOKING and placed = 0 and images = 0 and moves = (0, REOPEN)
+	CTLSPEC ctlSpec_three: ef(placed = 3)
+	LTLSPEC ltlSpec_counted:
+		(forall $p in Places with
+			g(
+				y(placed = $p)
+				implies (
+					placed = $p and not y(move = RISE and work = WAITING and isNewProgress and first(progress) = number)
+					or placed = $p + 1
+						and y(move = RISE and work = WAITING and isNewProgress and first(progress) = number))))
+
+	/* what is sent next is what the move before is for; without a part the jaw opens again */
+	LTLSPEC ltlSpec_over: g(work = WAITING and y(work = LOOKING) implies move = OVER)
+	LTLSPEC ltlSpec_follows:
+		(forall $m in Move with
+			g(
+				y(move = $m and work = WAITING and isNewProgress and first(progress) = number)
+				implies (
+					$m = OVER and move = DOWN
+					or $m = DOWN and move = CLOSE
+					or $m = CLOSE and move = UP
+					or $m = UP
+						and (
+							move = CARRY and y(isNewProgress and second(progress))
+							or move = REOPEN and y(isNewProgress and not second(progress)))
+					or $m = CARRY and move = LOWER
+					or $m = LOWER and move = OPEN
+					or $m = OPEN and move = RISE
+					or ($m = RISE or $m = REOPEN) and work = LOOKING and images = 0)))
+
+	/* the robot knows another move by its number, which is the next one */
+	LTLSPEC ltlSpec_numbered:
+		(forall $n in Number with
+			g(
+				y(number = $n and (work = LOOKING or work = WAITING and isNewProgress and first(progress) = $n))
+					and work = WAITING
+				implies number = ($n + 1) mod 4))
+
 	main rule r_Main =
 		if work = LOOKING then
 			r_look[]

@@ -57,6 +57,37 @@ definitions:
 	/* each move may be done, whatever was before */
 	CTLSPEC ctlSpec_done: ag((forall $n in Number with ef(first(progress) = $n)))
 
+	/* the jaw has closed, with a part or without; it is open; the tool has arrived: then it is done, and reported */
+	LTLSPEC ltlSpec_closed:
+		(forall $n in Number with
+			g(
+				y(first(progress) != $n and move = CLOSE) and first(progress) = $n
+				implies y(grip = EMPTY or grip = HOLDING)))
+	LTLSPEC ltlSpec_opened:
+		(forall $n in Number with
+			g(
+				y(first(progress) != $n and (move = OPEN or move = REOPEN)) and first(progress) = $n
+				implies y(grip = OPENED)))
+	LTLSPEC ltlSpec_arrived:
+		(forall $n in Number with
+			g(
+				y(first(progress) != $n and move != CLOSE and move != OPEN and move != REOPEN) and first(progress) = $n
+				implies y(arrived)))
+	LTLSPEC ltlSpec_reports:
+		(forall $n in Number with
+			g(
+				y(
+					number = $n
+					and not (isNewMoves and first(moves) != $n)
+					and (
+						move = CLOSE and (grip = EMPTY or grip = HOLDING)
+						or (move = OPEN or move = REOPEN) and grip = OPENED
+						or move != CLOSE and move != OPEN and move != REOPEN and arrived))
+				implies first(progress) = $n and (second(progress) iff y(grip = HOLDING))))
+
+	/* it begins as if the jaw had just been opened */
+	LTLSPEC ltlSpec_begins: number = 0 and move = REOPEN and progress = (0, false)
+
 	main rule r_Main =
 		if isAnother then
 			r_begin[]
