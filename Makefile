@@ -13,7 +13,7 @@ OLDEST := $(shell sed -n 's/^rust-version = "\(.*\)"/\1/p' Cargo.toml)
 TIMED := sh xtask/timed.sh
 PARTS := lint unit scenarios cpp systems robot web
 
-.PHONY: help demo test full quick times lint unit scenarios verify cpp cpp-full systems robot robot-full mutants fuzz bench \
+.PHONY: help demo test full quick times lint unit scenarios verify cpp cpp-full systems robot robot-full mutants cpp-mutants rust-mutants fuzz bench \
     install studio studio-full bench-studio web msrv bench-cpp corpus update vscode clean
 
 help: ## this list
@@ -136,6 +136,15 @@ robot-full: $(TESTED) ## all four robots, also under the sanitizers and with fau
 mutants: ## mutated texts through every command, every fifth change of an event in logs of generated systems through `conform`
 	$(CARGO) xtask mutate-text
 	$(CARGO) xtask mutate-log --every 5
+
+cpp-mutants: ## small faults in the C++ runtime, every fifth of them: its tests and ThreadSanitizer notice each that is not listed
+	sh cpp/install.sh libgtest-dev
+	python3 cpp/mutate.py --every $(or $(EVERY),5)
+
+# cargo-mutants is not installed here: it would be one more program for one check.
+rust-mutants: ## small faults in the semantics, the search and `conform`, judged by their tests, if cargo-mutants is there: hours
+	@if cargo mutants --version 2>/dev/null; then cargo mutants --output out/rust-mutants $(MUTANTS); \
+	else echo "rust-mutants: not judged: cargo-mutants is not installed (cargo install --locked cargo-mutants)"; fi
 
 fuzz: ## the fuzz targets, a minute each, guided by coverage; `make unit` tries the same on mutations
 	sh fuzz/run.sh 60

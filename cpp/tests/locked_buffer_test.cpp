@@ -45,6 +45,19 @@ TEST(LockedBuffer, AMasterReadsTheOldArrayWhenItsWatchdogEnds) {
     EXPECT_EQ(*pair.buffer.read(pair.consumer), 2);
 }
 
+TEST(LockedBuffer, AMasterPreparesItsNextDatumInPlace) {
+    Pair<Master::writer> pair;
+    pair.write(1);
+    pair.buffer.own() = 2;
+    EXPECT_EQ(*pair.buffer.read(pair.consumer), 1) << "what was not published is not handed over";
+    auto writing = pair.buffer.write(pair.producer);
+    EXPECT_EQ(*writing, 2);
+    writing.publish();
+    const auto reading = pair.buffer.read(pair.consumer);
+    EXPECT_EQ(*reading, 2);
+    EXPECT_EQ(reading.sequence(), 2U);
+}
+
 TEST(LockedBuffer, AMastersDatumStaysPendingWhenItsWatchdogEnds) {
     Pair<Master::writer> pair;
     pair.write(1);
