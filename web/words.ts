@@ -423,6 +423,7 @@ export const words = {
     synchronous: 'every period',
     asynchronous: 'when data come',
     period: 'Period',
+    jitter: 'Jitter',
     offset: 'Offset',
     deadline: 'Deadline',
     awaits: 'Awaits',

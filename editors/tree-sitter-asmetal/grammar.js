@@ -512,6 +512,7 @@ module.exports = grammar({
           "synchronous",
           "period",
           $.quantity,
+          optional(seq("jitter", $.quantity)),
           optional(seq("offset", $.quantity)),
           optional(seq("deadline", $.quantity)),
           optional($.tolerance),

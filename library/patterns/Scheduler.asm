@@ -86,6 +86,7 @@ definitions:
 	function trigger($c in Scheduler) =
 		if task_kind(scheduler_mainThread($c)) = SYNCHRONOUS then
 			task_elapsedTimeOfPeriod(scheduler_mainThread($c)) >= task_period(scheduler_mainThread($c))
+			and task_isHeld(scheduler_mainThread($c)) != true
 		else
 			dataAvailable(scheduler_currentPhase($c))
 		endif

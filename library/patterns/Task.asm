@@ -20,16 +20,20 @@ signature:
 	controlled task_kind: Task -> TaskKind
 	// ticks; undef for an asynchronous task
 	controlled task_period: Task -> Integer
-	// ticks a whole cycle takes when no lock is ever busy, the lock handshakes included
+	// ticks a whole cycle takes when no lock is ever busy, the lock handshakes included, with the jitter of its release
 	controlled task_timeForElaboration: Task -> Integer
 	// ticks from the start of a period to the time at which its cycle must be done; undef: the whole period
 	controlled task_deadline: Task -> Integer
 	// it may miss deadlines, so its cycles may begin late; undef: no
 	controlled mayBeLate: Task -> Boolean
+	// ticks by which a cycle may be released after the start of its period; undef: none
+	controlled task_jitter: Task -> Integer
 
 	// The present cycle
 	controlled task_periodStart: Task -> Integer
 	controlled task_timeInWait: Task -> Integer
+	// its period has begun, and its cycle is not released yet; undef between two steps, and where releases have no jitter
+	controlled task_isHeld: Task -> Boolean
 
 	// Statistics since the start; nothing in the library depends on them
 	controlled task_cycles: Task -> Integer

@@ -82,11 +82,14 @@ definitions:
 		(forall $t in Task with
 			task_kind($t) = SYNCHRONOUS
 			implies task_timeInWait($t) <= max(task_timeAllowed($t) - task_timeForElaboration($t), 0))
-	// it begins each cycle at the tick at which the period before ends, unless it may be late
+	// it begins each cycle at the tick at which the period before ends, or within its jitter, unless it may be late
 	invariant inv_periods over task_periodStart:
 		(forall $t in Task with
 			task_kind($t) = SYNCHRONOUS and isUndef(mayBeLate($t))
-			implies (task_elapsedTimeOfPeriod($t) >= 0 and task_elapsedTimeOfPeriod($t) <= task_period($t)))
+			implies (
+				task_elapsedTimeOfPeriod($t) >= 0
+				and task_elapsedTimeOfPeriod($t) - task_period($t)
+				<= (if isDef(task_jitter($t)) then task_jitter($t) else 0 endif)))
 
 	// with no assumption of fairness: whoever asks for a lock gets it or gives up
 	CTLSPEC ctlSpec_served: (forall $t in Task with ag(af(not isAsking($t))))

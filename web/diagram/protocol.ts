@@ -194,6 +194,7 @@ export interface ComponentText {
   part: 'component'
   synchronous: boolean | null
   period: Property
+  jitter: Property
   offset: Property
   deadline: Property
   misses: Property
@@ -227,6 +228,7 @@ export interface SystemText {
 export type PropertyName =
   | 'timing'
   | 'period'
+  | 'jitter'
   | 'offset'
   | 'deadline'
   | 'misses'

@@ -122,6 +122,7 @@ function ComponentFields({ part, system, ...all }: Context & { acting: Acting; p
       {part.synchronous === true && (
         <div className="three">
           <PropertyField {...all} property="period" label={words.system.period} value={part.period} />
+          <PropertyField {...all} property="jitter" label={words.system.jitter} value={part.jitter} placeholder="0 ms" />
           <PropertyField {...all} property="offset" label={words.system.offset} value={part.offset} placeholder="0 ms" />
           <PropertyField {...all} property="deadline" label={words.system.deadline} value={part.deadline} placeholder={part.period?.text ?? ''} />
         </div>

@@ -33,6 +33,7 @@ namespace groundstate {
 struct TaskPlan {
     const char* name = "";
     std::int64_t period_ticks = 0;  ///< 0: asynchronous
+    std::int64_t jitter_ticks = 0;  ///< how much later than its period a cycle may be released
     std::int64_t offset_ticks = 0;
     std::int64_t deadline_ticks = 0;
     std::int64_t busy_ticks = 0;  ///< a cycle's time without any waiting
@@ -192,7 +193,8 @@ class SystemBase {
         return {.period_ns = plan.period_ticks * tick_ns,
                 .offset_ns = plan.offset_ticks * tick_ns,
                 .deadline_ns = plan.deadline_ticks * tick_ns,
-                .elaboration_ns = plan.busy_ticks * tick_ns,
+                // A cycle keeps its deadline even if it is released as late as it may be.
+                .elaboration_ns = (plan.busy_ticks + plan.jitter_ticks) * tick_ns,
                 .late = options_.late};
     }
 

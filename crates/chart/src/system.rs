@@ -93,9 +93,11 @@ pub enum Timing {
     Synchronous {
         /// Time between two cycles, in ticks.
         period: u64,
-        /// Time from the first step to the first cycle, in ticks.
+        /// How much later than its period a cycle may be released, in ticks.
+        jitter: u64,
+        /// Time from the first step to the first period, in ticks.
         offset: u64,
-        /// Time from the start of a cycle until it must be done, in ticks.
+        /// Time from the start of a period until its cycle must be done, in ticks.
         deadline: u64,
     },
     /// When data arrive; without an awaited channel, always.
@@ -110,6 +112,11 @@ impl System {
     pub fn drawn_channels(&self) -> impl Iterator<Item = &[Channel]> {
         // One declaration makes them, one after the other.
         self.channels.chunk_by(|one, next| one.drawn == next.drawn)
+    }
+
+    /// Whether cycles of some component may be released later than their periods start.
+    pub fn has_jitter(&self) -> bool {
+        self.components.iter().any(|component| component.timing.jitter() > 0)
     }
 
     /// Whether it bounds the time until readers get something new.
@@ -137,11 +144,19 @@ impl Timing {
             Timing::Asynchronous { .. } => None,
         }
     }
+
+    /// How much later than its period a cycle may be released, in ticks; 0 for an asynchronous component.
+    pub fn jitter(self) -> u64 {
+        match self {
+            Timing::Synchronous { jitter, .. } => jitter,
+            Timing::Asynchronous { .. } => 0,
+        }
+    }
 }
 
 impl Component {
-    /// The ticks that a cycle may take: until the deadline; a task of a single phase also waits for a tick before its next cycle. `None`
-    /// for an asynchronous component.
+    /// The ticks from the start of a period until its cycle must be done: those until the deadline; a task of a single phase also waits for a
+    /// tick before its next cycle. `None` for an asynchronous component.
     pub fn available(&self) -> Option<u64> {
         match self.timing {
             Timing::Synchronous { period, deadline, .. } => {

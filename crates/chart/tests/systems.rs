@@ -20,7 +20,7 @@ system cell \"Cell\"
 		write classes 0.1 ms
 		write orders
 	endcomponent
-	component pusher synchronous period 5 ms offset 1 ms deadline 4 ms
+	component pusher synchronous period 5 ms jitter 0.5 ms offset 1 ms deadline 4 ms
 		read classes 0.1 ms
 		elaborate push 1 ms
 	endcomponent
@@ -89,6 +89,11 @@ fn each_number() {
         "offset 1 ms",
         "offset 2 ms",
         &["the component `pusher`: the offset is 2 ms in the chart, 1 ms in the model"],
+    );
+    check_change(
+        "jitter 0.5 ms",
+        "jitter 1 ms",
+        &["the component `pusher`: the jitter is 1 ms in the chart, 500 us in the model"],
     );
     check_change(
         "deadline 4 ms",
@@ -250,6 +255,53 @@ fn a_cycle_of_one_phase_may_not_take_the_whole_period() {
     let offset = "time-unit: the first cycle begins within the first period";
     assert_eq!(cell("period 10 ms offset 11 ms", "1 ms"), [offset]);
     assert_eq!(cell("period 10 ms offset 10 ms", "1 ms"), [""; 0]);
+}
+
+#[test]
+fn a_jitter_is_at_least_a_tick_and_at_most_a_period() {
+    let cell = |kind: &str, phase: &str| {
+        let text =
+            format!("chart Cell system cell tick 1 ms component a {kind} elaborate x {phase} endcomponent endsystem");
+        let loaded = chart::load(SourceFile::new("Cell.chart", text.as_str()), &mut Patterns);
+        let told = |fault: &syntax::Diagnostic| {
+            let range = fault.primary.span.range();
+            format!("{} at `{}`", fault.message, &text[range])
+        };
+        loaded.diagnostics.iter().map(told).collect::<Vec<_>>()
+    };
+    assert_eq!(cell("synchronous period 10 ms jitter 1 ms", "8 ms"), [""; 0]);
+    assert_eq!(
+        cell("synchronous period 10 ms jitter 9 ms offset 1 ms deadline 10 ms misses 1 of 2", "1..2 ms"),
+        [""; 0]
+    );
+    assert_eq!(
+        cell("synchronous period 10 ms jitter 11 ms", "1 ms"),
+        ["a cycle is released within its period at `11 ms`"]
+    );
+    assert_eq!(cell("synchronous period 10 ms jitter 0 ms", "1 ms"), ["a jitter takes at least a tick at `0 ms`"]);
+    assert_eq!(
+        cell("asynchronous jitter 1 ms", "1 ms"),
+        ["`a` is asynchronous: it has no period that its releases could miss at `1 ms`"]
+    );
+    assert_eq!(
+        cell("synchronous jitter 1 ms", "1 ms")[0],
+        "expected `period` behind `synchronous`, found `jitter` at `jitter`"
+    );
+    assert_eq!(
+        cell("synchronous period 10 ms jitter 1 furlong", "1 ms"),
+        ["`furlong` is not a unit of time at `furlong`"]
+    );
+    assert_eq!(
+        cell("synchronous period 10 ms jitter 0.5 ms", "1 ms"),
+        ["this is not a whole number of ticks at `0.5 ms`"]
+    );
+    assert_eq!(
+        cell("synchronous period 10 ms jitter 1 offset 1 ms", "1 ms"),
+        ["expected a unit behind the length of time, found `offset` at `offset`"]
+    );
+    let late = "a long cycle of `a` misses its period of 10 ms: it takes up to 8 ms (x) + 2 ms (jitter) = 10 ms, \
+                and the next one begins a tick after it at `a`";
+    assert_eq!(cell("synchronous period 10 ms jitter 2 ms", "8 ms"), [late]);
 }
 
 #[test]

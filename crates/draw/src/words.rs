@@ -81,8 +81,11 @@ pub fn timing(component: &Component, tick_ns: u64) -> String {
 
 fn runs(timing: Timing, tick_ns: u64) -> String {
     match timing {
-        Timing::Synchronous { period, offset, deadline } => {
+        Timing::Synchronous { period, jitter, offset, deadline } => {
             let mut text = format!("synchronous, {}", time(period, tick_ns));
+            if jitter > 0 {
+                let _ = write!(text, ", jitter {}", time(jitter, tick_ns));
+            }
             if offset > 0 {
                 let _ = write!(text, ", offset {}", time(offset, tick_ns));
             }

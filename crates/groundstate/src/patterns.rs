@@ -38,6 +38,7 @@ const PATTERNS: Library = Library {
         "PatternMachines.asm",
         "PatternMachines.chart",
         "Producer.asm",
+        "ReleaseJitter.asm",
         "Scheduler.asm",
         "Semaphore.asm",
         "SharedValue.asm",

@@ -8,6 +8,7 @@ mod composite_states;
 mod decision;
 mod draw;
 mod invariants;
+mod jittered_systems;
 mod jobs;
 mod labels;
 mod machines;

@@ -102,7 +102,7 @@ kinds! {
     PERIOD_KW = "period", OFFSET_KW = "offset", DEADLINE_KW = "deadline", AWAITS_KW = "awaits", READ_KW = "read",
     ELABORATE_KW = "elaborate", WRITE_KW = "write", AS_KW = "as", CHANNEL_KW = "channel", FROM_KW = "from",
     SWINGING_KW = "swinging", BUFFER_KW = "buffer", QUEUE_KW = "queue", VALUE_KW = "value", MASTER_KW = "master",
-    SENSOR_KW = "sensor", ACTUATOR_KW = "actuator", PROCESSORS_KW = "processors", MISSES_KW = "misses", EVERY_KW = "every",
+    SENSOR_KW = "sensor", ACTUATOR_KW = "actuator", PROCESSORS_KW = "processors", MISSES_KW = "misses", JITTER_KW = "jitter", EVERY_KW = "every",
     FRESH_KW = "fresh",
 
     // Nodes: the file

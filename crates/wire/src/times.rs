@@ -76,7 +76,9 @@ pub struct TaskTime<'a> {
     pub priority: usize,
     /// Null for an asynchronous task.
     pub period_ns: Option<u64>,
-    /// The shortest time between two cycles; null if it may start at any time.
+    /// How much later than its period a cycle may be released; null for an asynchronous task.
+    pub jitter_ns: Option<u64>,
+    /// The shortest time between two cycles without jitter; null if it may start at any time.
     pub interval_ns: Option<u64>,
     /// The shortest and the longest time of a cycle that never waits.
     pub execution_ns: [u64; 2],
@@ -84,7 +86,8 @@ pub struct TaskTime<'a> {
     pub load: Option<f64>,
     /// How long others keep it from locks, at most; null if that is not analysed.
     pub blocking_ns: Option<u64>,
-    /// The longest time from its release until the end of the cycle; null if none is known.
+    /// The longest time from the start of its period until the end of the cycle, so its jitter is part of it; of an asynchronous task from
+    /// when its cycle could begin; null if none is known.
     pub response_ns: Option<u64>,
     /// Null for an asynchronous task.
     pub deadline_ns: Option<u64>,
@@ -133,6 +136,7 @@ impl<'a> TimesTold<'a> {
                 name: &component.name,
                 priority: task.priority,
                 period_ns: period.map(ns),
+                jitter_ns: period.map(|_| ns(component.timing.jitter())),
                 interval_ns: task.interval.map(ns),
                 execution_ns: [ns(task.execution.0), ns(task.execution.1)],
                 load: task.load,

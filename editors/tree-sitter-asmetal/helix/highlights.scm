@@ -39,7 +39,7 @@
 [
   "chart" "machine" "endmachine" "pattern" "endpattern" "control" "state" "endstate" "guard" "action" "instance" "of"
   "to" "refine" "enter" "exit" "yes" "no" "sequence" "history" "entry" "abort" "layout" "endlayout" "at"
-  "system" "endsystem" "tick" "processors" "component" "endcomponent" "synchronous" "asynchronous" "period" "offset"
+  "system" "endsystem" "tick" "processors" "component" "endcomponent" "synchronous" "asynchronous" "period" "jitter" "offset"
   "deadline" "awaits" "read" "elaborate" "write" "as" "channel" "from" "swinging" "buffer" "master" "queue" "value"
   "sensor" "actuator" "within" "misses" "every" "fresh"
 ] @keyword

@@ -125,7 +125,7 @@ impl Properties<'_> {
             self.node(found.as_ref().map(AstNode::syntax))
         };
         let (period, offset) = (quantity(SyntaxKind::PERIOD_KW), quantity(SyntaxKind::OFFSET_KW));
-        let deadline = quantity(SyntaxKind::DEADLINE_KW);
+        let (jitter, deadline) = (quantity(SyntaxKind::JITTER_KW), quantity(SyntaxKind::DEADLINE_KW));
         // `1 of 20`, without the word before.
         let missed = kind.as_ref().and_then(|kind| kind.tolerance());
         let mut missed = self.node(missed.as_ref().map(AstNode::syntax));
@@ -156,6 +156,7 @@ impl Properties<'_> {
             "part": "component",
             "synchronous": is_synchronous,
             "period": period,
+            "jitter": jitter,
             "offset": offset,
             "deadline": deadline,
             "misses": missed,
@@ -183,6 +184,7 @@ pub fn operation_of(value: &Value) -> Result<Option<Operation>, Refused> {
             let property = match needed("property")?.as_str() {
                 "timing" => Property::Timing,
                 "period" => Property::Period,
+                "jitter" => Property::Jitter,
                 "offset" => Property::Offset,
                 "deadline" => Property::Deadline,
                 "misses" => Property::Misses,

@@ -22,7 +22,7 @@ pub(crate) use spelling::{
     state_value,
 };
 pub(crate) use system::taken;
-pub use system::{Lengths, busy, late};
+pub use system::{Lengths, budget, busy, late};
 
 use crate::chart::{Chart, Control, Machine, ShapeKind};
 use crate::component::{Cut, Reduction};

@@ -1,20 +1,21 @@
-//! The parts of a ground model that count what a chart bounds beside the ages of data: deadlines that a task misses, and the time until a
-//! reader gets something new.
+//! The parts of a ground model that run around each tick: they count what a chart bounds beside the ages of data, deadlines that a task
+//! misses and the time until a reader gets something new; and they say when a cycle is released, where that varies.
 //!
 //! In: a system without errors. Out: elements, configuration, initial values and invariants for `patterns/MissedDeadlines` and
-//! `patterns/FreshReadings`, and the rules that run around a tick. INVARIANT: a system without such bounds is built as if this were not here.
+//! `patterns/FreshReadings`, and the rules of these and of `patterns/ReleaseJitter`. INVARIANT: a system with nothing of this is built as if
+//! this were not here.
 
 use crate::system::{Action, ChannelKind, Component, FreshBound, Phase, System, Tolerance};
 
 use super::module::Item;
 use super::table::by_case;
 
-/// A module that observes each tick.
+/// A module whose rules run around each tick.
 pub(super) struct Observer {
     /// In the pattern library.
     pub(super) module: &'static str,
     /// In the verification library: what makes its states finite.
-    pub(super) in_ticks: &'static str,
+    pub(super) in_ticks: Option<&'static str>,
     /// Called before the tick.
     before: &'static str,
     /// Called after the tick.
@@ -25,7 +26,7 @@ pub(super) struct Observer {
 
 const MISSED: Observer = Observer {
     module: "MissedDeadlines",
-    in_ticks: "MissedInTicks",
+    in_ticks: Some("MissedInTicks"),
     before: "r_beforeCycles[]\n",
     after: "r_countMissed[]\n",
     forget: "r_forgetMissed[]\n",
@@ -33,16 +34,26 @@ const MISSED: Observer = Observer {
 
 const FRESH: Observer = Observer {
     module: "FreshReadings",
-    in_ticks: "FreshInTicks",
+    in_ticks: Some("FreshInTicks"),
     before: "r_beforeReadings[]\n",
     after: "r_countReadings[]\n",
     forget: "r_forgetReadings[]\n",
 };
 
+/// It keeps nothing from one tick to the next.
+const RELEASES: Observer = Observer {
+    module: "ReleaseJitter",
+    in_ticks: None,
+    before: "r_release[]\n",
+    after: "r_forgetReleases[]\n",
+    forget: "",
+};
+
 /// What has to observe a system.
 pub(super) fn observers(system: &System) -> Vec<&'static Observer> {
     let missed = system.components.iter().any(|component| component.tolerance.is_some()).then_some(&MISSED);
-    missed.into_iter().chain(readings(system).next().is_some().then_some(&FRESH)).collect()
+    let fresh = readings(system).next().is_some().then_some(&FRESH);
+    missed.into_iter().chain(fresh).chain(system.has_jitter().then_some(&RELEASES)).collect()
 }
 
 /// A tick with what observes it, as one rule: `after` comes first of what follows the tick.

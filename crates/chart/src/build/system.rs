@@ -224,7 +224,8 @@ pub(super) fn verified(chart: &Chart, system: &System, library: &str, lengths: L
     let system_tick = observed::observed(&system, &system_tick, "", true);
     fixed(&mut parts, "r_system", &format!("// a tick of the system as it is drawn\nrule r_system =\n{system_tick}"));
     for observer in observed::observers(&system) {
-        parts.imports.extend([format!("{library}{}", observer.module), format!("{VERIFICATION}{}", observer.in_ticks)]);
+        parts.imports.push(format!("{library}{}", observer.module));
+        parts.imports.extend(observer.in_ticks.map(|module| format!("{VERIFICATION}{module}")));
     }
     let tick = if system.bounds.is_empty() { "r_tick" } else { "r_agedTick" };
     if !system.bounds.is_empty() {
@@ -359,8 +360,15 @@ fn tasks(system: &System, define: &mut impl FnMut(&str, &str)) {
         let deadlines = each(&|c| early(c.timing).map_or("undef".to_string(), |deadline| deadline.to_string()));
         define("task_deadline($t in Task)", &by_case("$t", &deadlines));
     }
-    let budget = each(&|c| period(c).map_or("undef".to_string(), |_| busy(system, c).to_string()));
+    let budget = each(&|c| period(c).map_or("undef".to_string(), |_| budget(system, c).to_string()));
     define("task_timeForElaboration($t in Task)", &by_case("$t", &budget));
+    if system.has_jitter() {
+        let jitter = each(&|c| match c.timing.jitter() {
+            0 => "undef".to_string(),
+            jitter => jitter.to_string(),
+        });
+        define("task_jitter($t in Task)", &by_case("$t", &jitter));
+    }
     let start = each(&|c| match c.timing {
         Timing::Synchronous { period, offset, .. } => (offset as i64 - period as i64).to_string(),
         Timing::Asynchronous { .. } => "0".to_string(),
@@ -375,6 +383,11 @@ fn tasks(system: &System, define: &mut impl FnMut(&str, &str)) {
 /// The ticks of a cycle without waiting: a slave's access takes one tick more than its time, a master's two.
 pub fn busy(system: &System, component: &Component) -> u64 {
     component.phases.iter().map(|phase| taken(system, component, phase)).sum()
+}
+
+/// The ticks of a cycle that are left for no waiting, from the start of its period: however late it is released, it keeps its deadline.
+pub fn budget(system: &System, component: &Component) -> u64 {
+    busy(system, component) + component.timing.jitter()
 }
 
 /// The ticks of a phase without waiting.

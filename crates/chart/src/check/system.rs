@@ -222,9 +222,9 @@ impl Comparison<'_> {
                     .any(|phase| told("time", &phase.name) || missing(&phase.name) || told("action", &phase.name));
                 let used =
                     component.phases.iter().any(|phase| missing(&phase.subject) || told("sb_master", &phase.subject));
-                phases || used || told("task_kind", element)
+                phases || used || told("task_kind", element) || told("task_jitter", element)
             }),
-            "task_period" => told("task_kind", element),
+            "task_period" | "task_jitter" => told("task_kind", element),
             "nextPhase" | "scheduler_currentPhase" => owner.is_some_and(|component| {
                 component.phases.iter().any(|phase| missing(&phase.name))
                     || function == "nextPhase" && self.model_has_more_phases()
@@ -347,6 +347,7 @@ impl Comparison<'_> {
             "task_period",
             "task_deadline",
             "task_timeForElaboration",
+            "task_jitter",
             "task_periodStart",
             "time",
             "timeAtLeast",
@@ -391,6 +392,7 @@ fn what(function: &str) -> String {
     match function {
         "task_period" => "the period",
         "task_deadline" => "the deadline",
+        "task_jitter" => "the jitter",
         "task_timeForElaboration" => "the time of a cycle without waiting",
         "task_periodStart" => "the beginning of its first period",
         "time" => "its time",

@@ -20,6 +20,31 @@ pub(crate) fn no_period(span: Span) -> Diagnostic {
         .with_help("write a longer period")
 }
 
+/// A jitter of no length.
+pub(crate) fn no_jitter(span: Span) -> Diagnostic {
+    Diagnostic::error("time-unit", span, "a jitter takes at least a tick")
+        .here("every cycle would be released just when its period starts")
+        .with_help("leave the jitter out, or write a longer one")
+}
+
+/// A jitter that is longer than the period.
+pub(crate) fn long_jitter(span: Span) -> Diagnostic {
+    Diagnostic::error("time-unit", span, "a cycle is released within its period")
+        .here("the jitter is longer than the period")
+        .with_help("write a jitter that is no longer than the period")
+}
+
+/// A jitter of a component without a period.
+pub(crate) fn no_period_of_jitter(span: Span, name: &str) -> Diagnostic {
+    Diagnostic::error(
+        "time-unit",
+        span,
+        format!("`{name}` is asynchronous: it has no period that its releases could miss"),
+    )
+    .here("a jitter is how much later than its period a cycle may be released")
+    .with_help("leave the jitter out, or make the component synchronous and give it a period")
+}
+
 /// An offset that is longer than the period.
 pub(crate) fn late_offset(span: Span) -> Diagnostic {
     Diagnostic::error("time-unit", span, "the first cycle begins within the first period")

@@ -4,7 +4,7 @@
 //! one, of a mixed pair the asynchronous one. If the two do not differ in this, the chart must name the master.
 
 use syntax::ast::{self, AstNode, PhaseKind};
-use syntax::{Severity, Span, SyntaxKind, SyntaxToken};
+use syntax::{Diagnostic, Severity, Span, SyntaxKind, SyntaxToken};
 
 use super::Reader;
 use super::link::{flat, link};
@@ -154,7 +154,8 @@ impl Reader {
             let Timing::Synchronous { period, deadline, .. } = component.timing else { continue };
             let Some(available) = component.available() else { continue };
             let (time_until, word) = if deadline < period { (deadline, "deadline") } else { (period, "period") };
-            let whole = busy(system, component);
+            let jitter = component.timing.jitter();
+            let whole = busy(system, component) + jitter;
             if whole <= available {
                 continue;
             }
@@ -164,6 +165,7 @@ impl Reader {
                 let lock = if time > phase.time { " with its lock" } else { "" };
                 format!("{} ({}{lock})", shown(time), phase.subject)
             });
+            let parts = parts.chain((jitter > 0).then(|| format!("{} (jitter)", shown(jitter))));
             let sum = match &parts.collect::<Vec<_>>()[..] {
                 [one] => one.clone(),
                 several => format!("{} = {}", several.join(" + "), shown(whole)),
@@ -174,7 +176,7 @@ impl Reader {
             };
             let until = format!("its {word} of {}", shown(time_until));
             let spared: u64 = component.phases.iter().map(|phase| phase.time - phase.least).sum();
-            let always = whole - spared > available;
+            let always = whole - jitter - spared > available;
             // How many cycles take too long is for the verification.
             if component.tolerance.is_some() && !always {
                 continue;
@@ -249,6 +251,7 @@ impl Reader {
                     |word: SyntaxKind| kind.quantity(word).map(|quantity| self.ticks(&quantity, system.tick_ns));
                 let stated = length(SyntaxKind::PERIOD_KW);
                 let period = stated.unwrap_or(1).max(1);
+                let jitter = length(SyntaxKind::JITTER_KW);
                 let offset = length(SyntaxKind::OFFSET_KW).unwrap_or(0);
                 let deadline = length(SyntaxKind::DEADLINE_KW).unwrap_or(period);
                 let place = |word: SyntaxKind| {
@@ -256,16 +259,33 @@ impl Reader {
                     Some(Span::new(self.file, quantity.range()))
                 };
                 // Less than a tick is a fault of its own.
+                let is_told =
+                    |place: Span, faults: &[Diagnostic]| faults.iter().any(|fault| fault.primary.span == place);
+                if let (Some(jitter), Some(place)) = (jitter, place(SyntaxKind::JITTER_KW)) {
+                    let fault = match jitter {
+                        0 => Some(fault::times::no_jitter(place)),
+                        _ if jitter > period => Some(fault::times::long_jitter(place)),
+                        _ => None,
+                    };
+                    self.faults.extend(fault.filter(|_| !is_told(place, &self.faults)));
+                }
                 if let (Some(0), Some(place)) = (stated, place(SyntaxKind::PERIOD_KW)) {
-                    if !self.faults.iter().any(|fault| fault.primary.span == place) {
+                    if !is_told(place, &self.faults) {
                         self.faults.push(fault::times::no_period(place));
                     }
                 } else if offset > period {
                     self.faults.extend(place(SyntaxKind::OFFSET_KW).map(fault::times::late_offset));
                 }
-                Timing::Synchronous { period, offset, deadline }
+                Timing::Synchronous { period, jitter: jitter.unwrap_or(0).min(period), offset, deadline }
             }
-            None => Timing::Asynchronous { awaits: None },
+            None => {
+                let jitter = node.kind().and_then(|kind| kind.quantity(SyntaxKind::JITTER_KW));
+                if let Some(quantity) = jitter {
+                    let place = Span::new(self.file, quantity.range());
+                    self.faults.push(fault::times::no_period_of_jitter(place, name.text()));
+                }
+                Timing::Asynchronous { awaits: None }
+            }
         };
         system.components.push(Component {
             text: node.text().unwrap_or_else(|| spoken(name.text())),

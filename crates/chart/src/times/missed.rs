@@ -42,7 +42,7 @@ pub(super) fn missed(analysis: &Analysis<'_>, index: usize, tolerance: &Toleranc
     if *verdict == Verdict::Meets {
         return known(0, true);
     }
-    if execution > deadline {
+    if execution + component.timing.jitter() > deadline {
         // It leaves out accesses at locks where it can.
         let uses = |kind: ChannelKind| matches!(kind, ChannelKind::Buffer { .. } | ChannelKind::Queue { .. });
         let waits = system.channels.iter().any(|one| (one.from == index || one.to == index) && uses(one.kind));
@@ -56,6 +56,9 @@ pub(super) fn missed(analysis: &Analysis<'_>, index: usize, tolerance: &Toleranc
     }
     if platform.processors > 1 {
         return open("missed deadlines are not counted on several processors that tasks share");
+    }
+    if system.components.iter().any(|component| component.timing.jitter() > 0) {
+        return open("missed deadlines are not counted where releases have jitter");
     }
     let place = analysis.urgency.iter().position(|other| *other == index).unwrap_or(0);
     let rest = u64::from(component.phases.len() == 1);

@@ -4,6 +4,7 @@
 //! In: a system without errors, how many processors its tasks share, and in which order they are urgent. Out: [`Times`]. A cycle takes as
 //! long as its phases, with the ticks that the model spends at locks. Tasks are preempted by more urgent ones; a lock makes its holder
 //! as urgent as the task that waits (`cpp/include/groundstate/pair_lock.hpp`). Offsets are not used: all tasks may be released at once.
+//! A response counts from the start of a period, so the jitter of the release is part of it.
 //! INVARIANT: a response or an age that is given is never exceeded while every task keeps its deadline; none is given otherwise.
 
 mod ages;
@@ -82,8 +83,8 @@ pub struct TaskTimes {
     pub load: Option<f64>,
     /// How long others keep it waiting at channels, at most: on one processor also by a lock that a more urgent task waits for.
     pub blocking: Option<u64>,
-    /// The longest time from its release until the end of the cycle; of an asynchronous task from when its cycle could begin: what it
-    /// awaits is there, and the cycle before is over.
+    /// The longest time from the start of its period until the end of the cycle, with the jitter of its release; of an asynchronous task
+    /// from when its cycle could begin: what it awaits is there, and the cycle before is over.
     pub response: Option<u64>,
     /// What follows for its deadline.
     pub verdict: Verdict,
@@ -221,7 +222,8 @@ pub fn told(system: &System, times: &Times, place: syntax::Span) -> Vec<Diagnost
     for (component, task) in system.components.iter().zip(&times.tasks) {
         let Timing::Synchronous { deadline, .. } = component.timing else { continue };
         // A cycle that is too long by itself is told anyway.
-        if task.execution.1 > component.available().unwrap_or(deadline) || task.verdict == Verdict::Meets {
+        let most = task.execution.1 + component.timing.jitter();
+        if most > component.available().unwrap_or(deadline) || task.verdict == Verdict::Meets {
             continue;
         }
         if task.keeps(component.tolerance.as_ref()) == Some(true) {
@@ -291,11 +293,15 @@ impl Analysis<'_> {
     fn demand(&self, index: usize) -> Option<Demand> {
         let execution = executed(self.system, index).1;
         let jitter = match self.system.components[index].timing {
-            Timing::Synchronous { .. } => 0,
+            Timing::Synchronous { jitter, .. } => jitter,
             Timing::Asynchronous { awaits: None } => return None,
             Timing::Asynchronous { awaits: Some(channel) } => {
                 let writer = self.system.channels[channel].from;
-                let before = self.demand(writer).map_or(0, |demand| demand.jitter);
+                // The response of a synchronous writer has its jitter in it.
+                let before = match self.system.components[writer].timing {
+                    Timing::Synchronous { .. } => 0,
+                    Timing::Asynchronous { .. } => self.demand(writer).map_or(0, |demand| demand.jitter),
+                };
                 let response = self.responses[writer]?;
                 // What comes while its writer is still at work waits there, too: nothing bounds how close it then follows.
                 if self.awaited(writer).is_some() && self.interval(writer)? < response {
@@ -345,10 +351,12 @@ impl Analysis<'_> {
         let index = self.urgency[place];
         let execution = executed(self.system, index).1;
         let blocking = *self.blocking[index].as_ref().ok()?;
+        let jitter = self.system.components[index].timing.jitter();
         if is_apart(self.system, self.platform) {
-            return Some(execution.saturating_add(blocking));
+            return Some(execution.saturating_add(blocking).saturating_add(jitter));
         }
-        let limit = self.system.components[index].timing.period().unwrap_or(LONGEST);
+        // A cycle that ends after its period would delay the next one, which is not analysed.
+        let limit = self.system.components[index].timing.period().map_or(LONGEST, |period| period - jitter);
         let higher = &self.urgency[..place];
         let demands = higher.iter().map(|other| self.demand(*other)).collect::<Option<Vec<Demand>>>()?;
         let needed: f64 = demands.iter().map(|demand| demand.execution as f64 / demand.period.max(1) as f64).sum();
@@ -356,15 +364,21 @@ impl Analysis<'_> {
             return None;
         }
         if self.platform.processors == 1 {
-            return on_one(execution, blocking, &demands, limit);
+            return Some(on_one(execution, blocking, &demands, limit)?.saturating_add(jitter));
         }
         let with_responses = |(demand, other): (Demand, &usize)| {
             // A job of an asynchronous task may still be at work when the next one could begin.
             let response = self.responses[*other].filter(|response| *response <= demand.period)?;
-            Some((demand, response.saturating_add(demand.jitter)))
+            // That of a synchronous task has its jitter in it.
+            let before = match self.system.components[*other].timing {
+                Timing::Synchronous { .. } => 0,
+                Timing::Asynchronous { .. } => demand.jitter,
+            };
+            Some((demand, response.saturating_add(before)))
         };
         let all = demands.into_iter().zip(higher).map(with_responses).collect::<Option<Vec<_>>>()?;
-        on_several(self.platform.processors, execution.saturating_add(blocking), &all, limit)
+        let response = on_several(self.platform.processors, execution.saturating_add(blocking), &all, limit)?;
+        Some(response.saturating_add(jitter))
     }
 
     fn verdict(&self, index: usize) -> Verdict {
@@ -373,7 +387,7 @@ impl Analysis<'_> {
         else {
             return Verdict::None;
         };
-        if executed(self.system, index).1 > available {
+        if executed(self.system, index).1 + component.timing.jitter() > available {
             return Verdict::Misses;
         }
         let response = self.responses[index];
@@ -395,7 +409,9 @@ impl Analysis<'_> {
             Timing::Synchronous { offset: other, .. } => other != offset,
             Timing::Asynchronous { .. } => true,
         };
-        if self.platform.processors == 1 && blocking == 0 && !self.urgency[..place].iter().any(shifted) {
+        let varies = |other: &usize| self.system.components[*other].timing.jitter() > 0;
+        let at_once = !self.urgency[..place].iter().any(shifted) && !self.urgency[..=place].iter().any(varies);
+        if self.platform.processors == 1 && blocking == 0 && at_once {
             return Verdict::Misses;
         }
         let shown = |ticks: u64| length(ticks as i64, self.system.tick_ns);

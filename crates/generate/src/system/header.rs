@@ -141,8 +141,12 @@ fn plan(text: &mut String, system: &System, form: &Form) {
     );
     for (component, rank) in system.components.iter().zip(ranks(system)) {
         let (period, offset, deadline) = match component.timing {
-            Timing::Synchronous { period, offset, deadline } => (period, offset, deadline),
+            Timing::Synchronous { period, offset, deadline, .. } => (period, offset, deadline),
             Timing::Asynchronous { .. } => (0, 0, 0),
+        };
+        let jitter = match component.timing.jitter() {
+            0 => String::new(),
+            jitter => format!(".jitter_ticks = {jitter}, "),
         };
         let awaits = match component.timing {
             Timing::Asynchronous { awaits: Some(channel) } => {
@@ -152,7 +156,7 @@ fn plan(text: &mut String, system: &System, form: &Form) {
         };
         let _ = writeln!(
             text,
-            "            {{.name = \"{}\", .period_ticks = {period}, .offset_ticks = {offset}, .deadline_ticks = {deadline}, \
+            "            {{.name = \"{}\", .period_ticks = {period}, {jitter}.offset_ticks = {offset}, .deadline_ticks = {deadline}, \
              .busy_ticks = {}, .rank = {rank}, .single_phase = {}{awaits}}},",
             component.name,
             busy(system, component),

@@ -20,6 +20,8 @@ pub enum Property {
     Timing,
     /// Of a synchronous component: its period.
     Period,
+    /// Of a synchronous component: how much later than its period a cycle may be released.
+    Jitter,
     /// Of a synchronous component: when its first cycle begins.
     Offset,
     /// Of a synchronous component: when a cycle has to be done.
@@ -215,6 +217,10 @@ impl Work {
                 let value = read(value, fixed)?.ok_or("a synchronous component has a period")?;
                 self.set_quantity(id, PERIOD_KW, Some(&value))
             }
+            Property::Jitter => {
+                let value = read(value, fixed)?;
+                self.set_quantity(id, JITTER_KW, value.as_deref())
+            }
             Property::Offset => {
                 let value = read(value, fixed)?;
                 self.set_quantity(id, OFFSET_KW, value.as_deref())
@@ -372,7 +378,7 @@ impl Work {
         let (first, word, goes) = match (value, timing.is_synchronous()) {
             ("synchronous", true) | ("asynchronous", false) => return Ok(()),
             ("asynchronous", true) => {
-                let lengths = [PERIOD_KW, OFFSET_KW, DEADLINE_KW].into_iter().filter_map(quantity);
+                let lengths = [PERIOD_KW, JITTER_KW, OFFSET_KW, DEADLINE_KW].into_iter().filter_map(quantity);
                 let goes: Vec<Bytes> = lengths.chain(timing.tolerance().map(|one| extent(one.syntax()))).collect();
                 (word(node, SYNCHRONOUS_KW), "asynchronous", goes)
             }
@@ -397,6 +403,7 @@ impl Work {
         let place = |quantity: Option<Quantity>| quantity.map(|quantity| extent(quantity.syntax()));
         let spelled = match kind {
             PERIOD_KW => "period",
+            JITTER_KW => "jitter",
             OFFSET_KW => "offset",
             _ => "deadline",
         };
@@ -407,10 +414,13 @@ impl Work {
                 self.take_away(start..bytes.end);
             }
             (None, Some(value)) => {
-                // An offset stands before the deadline, and that before what may be missed.
-                let period = place(timing.quantity(PERIOD_KW)).map(|bytes| bytes.end);
-                let offset = place(timing.quantity(OFFSET_KW)).map(|bytes| bytes.end);
-                let end = if kind == OFFSET_KW { period } else { offset.or(period) };
+                // Jitter, offset and deadline stand behind the period in this order, and before what may be missed.
+                let before: &[SyntaxKind] = match kind {
+                    JITTER_KW => &[PERIOD_KW],
+                    OFFSET_KW => &[JITTER_KW, PERIOD_KW],
+                    _ => &[OFFSET_KW, JITTER_KW, PERIOD_KW],
+                };
+                let end = before.iter().find_map(|word| place(timing.quantity(*word))).map(|bytes| bytes.end);
                 let end = end.unwrap_or_else(|| extent(timing.syntax()).end);
                 self.replace(end..end, &format!(" {spelled} {value}"));
             }

@@ -43,6 +43,21 @@ fn times_of_components() {
     both(&set("look", Property::Period, " 20 ms "), "synchronous period 20 ms offset 1 ms");
     both(&set("look", Property::Deadline, "8 ms"), "synchronous period 10 ms offset 1 ms deadline 8 ms");
     both(&none("look", Property::Offset), "synchronous period 10 ms");
+    both(&set("look", Property::Jitter, "0.2 ms"), "synchronous period 10 ms jitter 0.2 ms offset 1 ms");
+    let jittered = SYSTEM.replace("offset 1 ms", "jitter 2 ms");
+    for (property, value, expected) in [
+        (Property::Jitter, Some("1 ms"), "period 10 ms jitter 1 ms //"),
+        (Property::Jitter, None, "period 10 ms //"),
+        (Property::Offset, Some("1 ms"), "period 10 ms jitter 2 ms offset 1 ms //"),
+        (Property::Deadline, Some("8 ms"), "period 10 ms jitter 2 ms deadline 8 ms //"),
+        (Property::Timing, Some("asynchronous"), "asynchronous //"),
+    ] {
+        let operation = Operation::Set("look".to_string(), property, value.map(str::to_string));
+        let drawn = drawn(&jittered, "s", &operation, &BTreeMap::new()).unwrap_or_else(|reason| panic!("{reason}"));
+        let text = crate::edited(&jittered, &drawn.edit.into_iter().collect::<Vec<_>>());
+        assert!(text.contains(expected), "{text}");
+    }
+    assert!(after(&set("act", Property::Jitter, "1 ms")).is_err());
     both(&set("look", Property::Misses, "1 of 20"), "synchronous period 10 ms offset 1 ms misses 1 of 20");
     let weak = SYSTEM.replace("offset 1 ms", "offset 1 ms misses 2 of 9");
     let then = |operation: &Operation| {

@@ -13,7 +13,7 @@ nodes! {
     Processors = PROCESSORS,
     /// `component NAME "text" KIND … endcomponent`
     Component = COMPONENT,
-    /// `synchronous period Q offset Q deadline Q misses N of N`, `asynchronous awaits NAME`
+    /// `synchronous period Q jitter Q offset Q deadline Q misses N of N`, `asynchronous awaits NAME`
     ComponentKind = COMPONENT_KIND,
     /// `misses N of N`: how many deadlines a task may miss.
     Tolerance = TOLERANCE,
@@ -139,7 +139,7 @@ impl ComponentKind {
     pub fn tolerance(&self) -> Option<Tolerance> {
         child(self.syntax())
     }
-    /// The quantity after `period`, `offset` or `deadline`.
+    /// The quantity after `period`, `jitter`, `offset` or `deadline`.
     pub fn quantity(&self, word: SyntaxKind) -> Option<Quantity> {
         let word = token(self.syntax(), word)?;
         let mut next = word.next_sibling_or_token();

@@ -73,7 +73,7 @@ fn length(p: &mut Parser<'_>, varies: bool) {
     }
     if complete {
         // The next line is another item, and a word that goes on here is not a unit.
-        let goes_on = [OFFSET_KW, DEADLINE_KW, MISSES_KW, BY_KW, FROM_KW, EVERY_KW, FRESH_KW];
+        let goes_on = [JITTER_KW, OFFSET_KW, DEADLINE_KW, MISSES_KW, BY_KW, FROM_KW, EVERY_KW, FRESH_KW];
         if p.on_new_line() || p.at(EOF) || p.at(DOT) || keyword(p, &goes_on).is_some() {
             let found = p.missing();
             p.fault(fault::expected_unit(found));
@@ -126,18 +126,22 @@ fn component(p: &mut Parser<'_>) {
     p.finish();
 }
 
-/// `synchronous period Q offset Q deadline Q misses N of N`, `asynchronous awaits NAME`
+/// `synchronous period Q jitter Q offset Q deadline Q misses N of N`, `asynchronous awaits NAME`
 fn kind(p: &mut Parser<'_>) {
     p.start(COMPONENT_KIND);
     if eat_word(p, ASYNCHRONOUS_KW) {
         if eat_word(p, AWAITS_KW) {
             shape_name(p);
         }
+        // Without a period it means nothing; the chart's reader says so.
+        if eat_word(p, JITTER_KW) {
+            quantity(p);
+        }
     } else if expect_word(p, SYNCHRONOUS_KW, "or `asynchronous` behind the name of a component") {
         if expect_word(p, PERIOD_KW, "behind `synchronous`") {
             quantity(p);
         }
-        for word in [OFFSET_KW, DEADLINE_KW] {
+        for word in [JITTER_KW, OFFSET_KW, DEADLINE_KW] {
             if eat_word(p, word) {
                 quantity(p);
             }
@@ -423,6 +427,45 @@ mod tests {
                 !expected-token
                 !expected-token
                 !expected-shape"#]],
+        );
+    }
+
+    #[test]
+    fn jitter() {
+        check(
+            "chart C system s component jitter synchronous period 10 ms jitter 1 ms offset 1 ms elaborate jitter 1 ms endcomponent component d asynchronous jitter 1 ms endcomponent component e synchronous period 10 jitter endcomponent endsystem",
+            expect![[r#"
+                chart
+                C
+                SYSTEM_CHART(
+                  system
+                  s
+                  COMPONENT(
+                    component
+                    jitter
+                    COMPONENT_KIND(
+                      synchronous
+                      period
+                      QUANTITY(10 ms)
+                      jitter
+                      QUANTITY(1 ms)
+                      offset
+                      QUANTITY(1 ms))
+                    PHASE(elaborate jitter QUANTITY(1 ms))
+                    endcomponent)
+                  COMPONENT(
+                    component
+                    d
+                    COMPONENT_KIND(asynchronous jitter QUANTITY(1 ms))
+                    endcomponent)
+                  COMPONENT(
+                    component
+                    e
+                    COMPONENT_KIND(synchronous period QUANTITY(10) jitter)
+                    endcomponent)
+                  endsystem)
+                !expected-token
+                !expected-token"#]],
         );
     }
 

@@ -123,7 +123,10 @@ fn table(system: &System, times: &Times) -> String {
             component.name.clone(),
             task.priority.to_string(),
             match (component.timing.period(), task.interval) {
-                (Some(period), _) => shown(period),
+                (Some(period), _) => match component.timing.jitter() {
+                    0 => shown(period),
+                    jitter => format!("{}, jitter {}", shown(period), shown(jitter)),
+                },
                 (None, Some(interval)) => format!("after data, {}", shown(interval)),
                 (None, None) => "any time".to_string(),
             },

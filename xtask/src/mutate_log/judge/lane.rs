@@ -94,7 +94,7 @@ impl<'a> Lane<'a> {
 
     fn completes(&mut self, cycle: u64) -> Step<()> {
         let component = &self.plan.system.components[self.index];
-        let Timing::Synchronous { period, offset, deadline } = component.timing else { return Ok(Ok(())) };
+        let Timing::Synchronous { period, offset, deadline, .. } = component.timing else { return Ok(Ok(())) };
         let Some(event) = self.peek() else { return Ok(Err(End)) };
         // Deadlines are whole ticks, instants are not: within the tick of its deadline a cycle may be either.
         let due_ns = (offset + cycle * period + deadline) as i64 * self.plan.tick_ns;
