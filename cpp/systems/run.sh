@@ -69,6 +69,54 @@ for form in "Classifier" "Handover" "Conveyor" "Conveyor --wait-free"; do
     expect "0 3" "$folder/program" --real 0.2 --log "$folder/run.mcap"
     expect "0 3" "$groundstate" conform $name.asm "$folder/run.mcap"
 done
+# What a chart bounds: the program counts what its model counts. It tells so at its end, in its log, in the report and beside the verdict.
+watched=$out/watched
+expect 0 "$groundstate" generate cpp Watched.chart -o "$watched"
+compile "$watched" -O0
+expect 0 "$watched/program" --virtual 2 --log "$watched/run.mcap"
+cp "$out/said" "$watched/told"
+expect 0 "$groundstate" conform Watched.asm "$watched/run.mcap"
+said "conforms tick by tick"
+! grep -q "outside the chart's bounds" "$out/said" || fail "something is outside in modelled time"
+# counted WHAT OUTSIDE MOST: in a file of what was told.
+counted() { grep -q "^$1  .*  [1-9][0-9]*  *$2  *$3\$" "$told" || { cat "$told"; fail "not counted: $*"; }; }
+# in_model RUN LOCATION TICKS: what the model has counted after as many steps.
+echo 'always: {endsNow(camera): false, endsNow(vision): false, isReleased(camera): true, isReleased(motor): true}' >"$watched/longest.yaml"
+printf ':run 4000\n:state way_oldest\n:state reading_longest\n' >"$watched/asked"
+"$groundstate" run Watched.asm --input "$watched/longest.yaml" -i --show none <"$watched/asked" >"$watched/model" 2>&1
+in_model() { grep -q "  $1 = $2\$" "$watched/model" || { cat "$watched/model"; fail "not in the model: $*"; }; }
+told=$watched/told
+in_model "way_oldest(bound1_way1)" 94
+counted "age from camera to arm" 0 "47000.0 us"
+in_model "way_oldest(bound2_way1)" 15
+counted "age from control to motor" 0 "7500.0 us"
+in_model "reading_longest(control_read_marks_fresh)" 32
+counted "new marks for control" 0 "16000.0 us"
+in_model "reading_longest(motor_read_set_fresh)" 8
+counted "new set for motor" 0 "4000.0 us"
+counted "look of camera" 0 "5000.0 us"
+counted "releases of camera" 0 "0.0 us"
+counted "deadlines missed by control" 0 0
+expect 0 "$groundstate" report Watched.asm --run "$watched/run.mcap" -o "$watched/report.html"
+grep -q "age from camera to arm" "$watched/report.html" || fail "the report does not show what is bounded"
+# Tighter bounds, and deadlines that no cycle meets: all that is outside is counted.
+sed -e "s|import ../../|import $(realpath ../..)/|" -e 's/within 60 ms/within 46.5 ms/' -e 's/every 28 ms/every 15.5 ms/' -e 's/deadline 3.5 ms/deadline 2 ms/' \
+    Watched.chart >"$watched/Watched.chart"
+expect 0 "$groundstate" generate cpp "$watched/Watched.chart" -o "$watched"
+compile "$watched" -O0
+expect 0 "$watched/program" --virtual 2 --log "$watched/run.mcap"
+cp "$out/said" "$watched/told"
+counted "age from camera to arm" "[1-9][0-9]*" "47000.0 us"
+counted "new marks for control" "[1-9][0-9]*" "16000.0 us"
+counted "deadlines missed by control" 499 5
+expect 0 "$groundstate" chart build "$watched/Watched.chart"
+expect 0 "$groundstate" conform "$watched/Watched.asm" "$watched/run.mcap"
+said "^499 of 500 were outside the chart's bounds, as the program counted: deadlines missed by control (1 of 5)"
+# Hooks that do nothing are done far too soon.
+expect "0 3" "$watched/program" --real 0.2
+cp "$out/said" "$watched/told"
+grep -q "^look of camera  *3..5 ms  *\([1-9][0-9]*\)  *\1  " "$told" || { cat "$told"; fail "short elaborations are not counted"; }
+
 # Two arrays, where the system above has three; and one tick, where it has several.
 short=$out/short
 mkdir "$short"

@@ -118,6 +118,23 @@ TEST(Tasks, TellWhoeverIsToKnowThatAStepThrew) {
     clock.leave();
 }
 
+TEST(Tasks, KnowWhetherTheyRestedWhenACycleWasDue) {
+    VirtualClock clock{2};
+    std::vector<bool> rested;
+    PeriodicTask<VirtualClock> task{clock, "task", {.period_ns = 10}, [&](const Cycle& cycle) {
+        rested.push_back(cycle.rested);
+        clock.sleep_until_ns(clock.now_ns() + (cycle.number == 1 ? 15 : 2));
+    }};
+    clock.enter(1);
+    task.start(0);
+    clock.sleep_until_ns(45);
+    task.ask_to_stop();
+    clock.leave();
+    task.stop();
+    // Due at 0 when it starts, at 10, at 20 while the cycle before is at work, and then at 30.
+    EXPECT_EQ(rested, (std::vector<bool>{false, true, false, true, true}));
+}
+
 TEST_F(PeriodicTaskTest, SkipsPeriodsThatHaveBegun) {
     EXPECT_EQ(run({.period_ns = 10, .late = Late::skip}, {2, 35, 2}, 65), (Instants{0, 10, 50, 60}));
     EXPECT_EQ(statistics->periods_skipped.value(), 3);

@@ -5,6 +5,9 @@
 // is left is one branch an event.
 #pragma once
 
+#include <deque>
+
+#include "bounds.hpp"
 #include "event.hpp"
 #include "observer.hpp"
 #include "pace.hpp"
@@ -25,7 +28,7 @@ template <Clock C>
 class TaskContext {
   public:
     TaskContext(C& clock, const Pacing& pacing, std::uint16_t number)
-        : pace{clock, pacing, number}, clock_{clock}, number_{number} {}
+        : pace{clock, pacing, number}, clock_{clock}, tick_ns_{pacing.tick_ns}, number_{number} {}
 
     /// Before the tasks start.
     void record_to(TaskLog* log, std::int64_t origin_ns) noexcept {
@@ -61,10 +64,80 @@ class TaskContext {
     void count_invalid() noexcept { invalid_.add(); }
     void begin_cycle(std::int64_t number) noexcept { cycle_.set(number); }
 
+    /// Now, as deadlines and bounds see it: in modelled time the present tick.
+    std::int64_t instant_ns() const noexcept {
+        const std::int64_t now_ns = clock_.now_ns();
+        return pace.is_modelled() ? now_ns - now_ns % tick_ns_ : now_ns;
+    }
+
+    /// A bound that this task counts, and a way that it is on. Who: the builder of the system. Allocates: yes.
+    void count(const BoundPlan& bound) { bounds_.emplace_back(bound, tick_ns_); }
+    void is_on(Way& way) { ways_.push_back(&way); }
+    /// Who: the owner, after the task has ended; `account` any thread.
+    std::deque<Bound>& bounds() noexcept { return bounds_; }
+    const std::deque<Bound>& bounds() const noexcept { return bounds_; }
+
+    // What the task does, for its bounds. Block: no. Allocate: no.
+    void released(const std::int64_t late_ns) noexcept {
+        each(Bounded::release, [&](Bound& bound) { bound.saw(late_ns); });
+    }
+    void elaborated(std::uint16_t phase, std::int64_t length_ns) noexcept {
+        for (Bound& bound : bounds_) {
+            if (bound.is(Bounded::elaboration, phase)) {
+                bound.saw(length_ns);
+            }
+        }
+    }
+    void read_new(std::uint16_t phase) noexcept {
+        for (Bound& bound : bounds_) {
+            if (bound.is(Bounded::reading, phase)) {
+                bound.saw_new(instant_ns());
+            }
+        }
+    }
+    void done(bool is_late) noexcept {
+        each(Bounded::misses, [&](Bound& bound) { bound.saw_cycle(is_late); });
+    }
+    void ways_begin() noexcept {
+        for (Way* way : ways_) {
+            way->begins(number_, instant_ns());
+        }
+    }
+    void ways_end_phase(std::uint16_t phase) noexcept {
+        for (Way* way : ways_) {
+            way->ends_phase(number_, phase);
+        }
+    }
+    void ways_end() noexcept {
+        for (Way* way : ways_) {
+            way->ends_cycle(number_, instant_ns());
+        }
+    }
+    void writes_datum(std::uint16_t channel, std::uint64_t number) noexcept {
+        for (Way* way : ways_) {
+            way->writes(channel, number);
+        }
+    }
+    void reads_datum(std::uint16_t channel, std::uint64_t number) noexcept {
+        for (Way* way : ways_) {
+            way->reads(channel, number);
+        }
+    }
+
     TaskPace<C> pace;
 
   private:
+    template <class Count>
+    void each(Bounded kind, Count&& count) noexcept {
+        for (Bound& bound : bounds_) {
+            if (bound.is(kind)) {
+                count(bound);
+            }
+        }
+    }
+
     C& clock_;
+    std::int64_t tick_ns_;
     std::uint16_t number_;
     TaskLog* log_ = nullptr;
     std::int64_t origin_ns_ = 0;
@@ -72,6 +145,8 @@ class TaskContext {
     Counter phase_{};
     Counter cycle_{};
     Counter invalid_{};
+    std::deque<Bound> bounds_{};
+    std::vector<Way*> ways_{};
 };
 
 /// The observer of a channel between two generated tasks.
@@ -103,27 +178,35 @@ class Observation {
     }
     void managed() noexcept { of(master_).pace.managed(); }
     void writes(std::size_t array, std::uint64_t number) noexcept {
+        producer_->writes_datum(channel_, number);
         producer_->record(Kind::writes, channel_, number, array);
     }
     bool offers() noexcept { return producer_->pace.offer(); }
     void reads(std::size_t array, std::uint64_t number, bool fresh) noexcept {
+        consumer_->reads_datum(channel_, number);
         consumer_->record(Kind::reads, channel_, number, array, 0, fresh);
     }
     void looks() noexcept { producer_->pace.look(); }
     void sends(std::uint64_t number) noexcept {
         producer_->pace.hand_over();
+        producer_->writes_datum(channel_, number);
         producer_->record(Kind::sends, channel_, number);
     }
     void refuses() noexcept { producer_->record(Kind::refuses, channel_); }
     void takes(std::uint64_t number) noexcept {
         consumer_->pace.take();
+        if (number != 0) {
+            consumer_->reads_datum(channel_, number);
+        }
         consumer_->record(Kind::takes, channel_, number);
     }
     void stores(std::uint64_t number) noexcept {
         producer_->pace.hand_over();
+        producer_->writes_datum(channel_, number);
         producer_->record(Kind::stores, channel_, number);
     }
     void loads(std::uint64_t number, bool fresh) noexcept {
+        consumer_->reads_datum(channel_, number);
         consumer_->record(Kind::loads, channel_, number, 0, 0, fresh);
     }
     static bool seeded(Fault fault) noexcept { return is_seeded(fault); }

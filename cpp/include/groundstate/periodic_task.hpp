@@ -82,12 +82,13 @@ class PeriodicTask {
     void run(std::int64_t due_ns) {
         const std::int64_t allowed_ns = this->allowed_ns();
         for (std::int64_t number = 0;; ++number) {
+            const bool rested = clock_.now_ns() < due_ns;
             if (!await(due_ns)) {
                 return;
             }
             const std::int64_t begun_ns = now_ns();
             watchdog_.restart(counts_lateness_ ? begun_ns - due_ns : 0);
-            step_({.number = number, .start_ns = due_ns, .deadline_ns = due_ns + allowed_ns, .watchdog = watchdog_});
+            step_({.number = number, .start_ns = due_ns, .deadline_ns = due_ns + allowed_ns, .rested = rested, .watchdog = watchdog_});
             account(due_ns, begun_ns, now_ns(), allowed_ns);
             due_ns = next_ns(due_ns, now_ns());
         }

@@ -52,10 +52,11 @@ class Phases {
     /// The component's own work: `step` returns whether there is something to hand over.
     template <class Step>
     bool elaborate(Phase phase, Step&& step) {
-        begin(phase);
+        const std::int64_t begun_ns = begin(phase);
         const bool ready = step();
         task_.progress(phase.number);
         task_.pace.spend(phase.ticks);
+        task_.elaborated(phase.number, task_.instant_ns() - begun_ns);
         end(phase);
         return ready;
     }
@@ -63,10 +64,11 @@ class Phases {
     /// A step of the component's machine. In virtual time it is made when the phase ends, on what the sensors say then, as in the model.
     template <class Step>
     bool decide(Phase phase, Step&& step) {
-        begin(phase);
+        const std::int64_t begun_ns = begin(phase);
         task_.pace.spend(phase.ticks);
         const bool ready = step();
         task_.progress(phase.number);
+        task_.elaborated(phase.number, task_.instant_ns() - begun_ns);
         end(phase);
         return ready;
     }
@@ -94,6 +96,7 @@ class Phases {
         {
             const auto reading = buffer.read(cycle_.watchdog);
             show(reading, reading ? &*reading : nullptr, seen);
+            tell_new(phase, seen);
             task_.pace.spend(phase.ticks);
         }
         end(phase);
@@ -110,6 +113,7 @@ class Phases {
                     copy = *reading;
                 }
                 show(reading, reading ? &copy : nullptr, seen);
+                tell_new(phase, seen);
                 task_.pace.spend(phase.ticks);
             } else {
                 seen.fresh = false;
@@ -173,6 +177,7 @@ class Phases {
         if (auto message = queue.receive()) {
             last = std::move(message);
             seen = {&last->datum, true, static_cast<std::uint64_t>(queue.taken()), last->stamp_ns};
+            tell_new(phase, seen);
         }
         task_.pace.spend(phase.ticks);
         end(phase);
@@ -193,6 +198,7 @@ class Phases {
     /// The cycle of a synchronous task is done: in time or not. `component` is its number among the names.
     void complete(std::uint16_t component, std::int64_t now_ns) {
         const bool met = now_ns <= cycle_.deadline_ns;
+        task_.done(!met);
         task_.record(met ? Kind::meets : Kind::misses, component, static_cast<std::uint64_t>(cycle_.number));
     }
 
@@ -214,12 +220,24 @@ class Phases {
         }
     }
 
-    void begin(Phase phase) {
+    // Returns when that is.
+    std::int64_t begin(Phase phase) {
         task_.progress(phase.number);
         task_.record(Kind::begins, phase.number, static_cast<std::uint64_t>(cycle_.number));
+        return task_.instant_ns();
     }
 
-    void end(Phase phase) { task_.record(Kind::ends, phase.number, static_cast<std::uint64_t>(cycle_.number)); }
+    void end(Phase phase) {
+        task_.ways_end_phase(phase.number);
+        task_.record(Kind::ends, phase.number, static_cast<std::uint64_t>(cycle_.number));
+    }
+
+    template <class T>
+    void tell_new(Phase phase, const Seen<T>& seen) noexcept {
+        if (seen && seen.fresh) {
+            task_.read_new(phase.number);
+        }
+    }
 
     template <class Staged>
     bool may_write(Phase phase, std::uint16_t channel, bool ready, Staged&& staged) {

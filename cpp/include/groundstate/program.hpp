@@ -9,6 +9,7 @@
 // were not valid and so not handed over, or the log is not whole. A message says what failed.
 #pragma once
 
+#include <array>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -92,12 +93,13 @@ struct TaskAccount {
 struct RunAccount {
     std::string system{};
     std::vector<TaskAccount> tasks{};
+    std::vector<BoundAccount> bounds{};  ///< what the chart bounds, and how often that was not kept
     Ending ending{};
 };
 
 template <class System>
 RunAccount account_of(const System& system, Ending ending) {
-    RunAccount account{system.plan().name, {}, std::move(ending)};
+    RunAccount account{system.plan().name, {}, system.bounds(), std::move(ending)};
     for (std::size_t i = 0; i < system.plan().tasks.size(); ++i) {
         const Statistics& known = system.unit(i).statistics();
         account.tasks.push_back({.name = system.plan().tasks[i].name,
@@ -121,6 +123,24 @@ inline bool is_complete(const RunAccount& account) noexcept {
     return is_valid && account.ending.log_error == 0 && account.ending.log_lost == 0;
 }
 
+/// Prints what was seen of all that the chart bounds; nothing if it bounds nothing.
+inline void tell_bounds(const std::vector<BoundAccount>& bounds) {
+    if (bounds.empty()) {
+        return;
+    }
+    std::printf("\n%-40s %-20s %9s %9s %12s\n", "bound", "limit", "seen", "outside", "most");
+    for (const BoundAccount& bound : bounds) {
+        std::array<char, 32> most{};
+        if (bound.is_time) {
+            std::snprintf(most.data(), most.size(), "%.1f us", static_cast<double>(bound.greatest) / 1e3);
+        } else {
+            std::snprintf(most.data(), most.size(), "%lld", static_cast<long long>(bound.greatest));
+        }
+        std::printf("%-40s %-20s %9lld %9lld %12s\n", bound.what.c_str(), bound.limit.c_str(),
+                    static_cast<long long>(bound.seen), static_cast<long long>(bound.outside()), most.data());
+    }
+}
+
 /// Prints how a run ended, and what is known of the cycles of each task. The exit status: 1 if a task failed, 3 if
 /// something is missing all the same, or 0.
 inline int tell(const RunAccount& account) {
@@ -135,6 +155,7 @@ inline int tell(const RunAccount& account) {
                     static_cast<long long>(task.invalid), static_cast<long long>(task.worst_lateness_ns / 1000),
                     static_cast<long long>(task.worst_duration_ns / 1000));
     }
+    tell_bounds(account.bounds);
     if (outcome.log_error != 0) {
         std::fprintf(stderr, "%s: the log ended early: %s\n", name, std::strerror(outcome.log_error));
     }

@@ -50,6 +50,8 @@ struct SystemPlan {
     std::vector<const char*> names{};         ///< of phases, channels and components, as events number them
     std::vector<const char*> wait_free{};     ///< channels that are not as the model has them
     std::vector<std::size_t> safe_stop{};     ///< the order in which components are told
+    std::vector<BoundPlan> bounds{};          ///< what tasks count by themselves
+    std::vector<WayPlan> ways{};              ///< what bounds the ages of data
 };
 
 /// How a system is run.
@@ -158,6 +160,7 @@ class SystemBase {
         ending_.store(true, std::memory_order_relaxed);
         end(outcome);
         stop_components();
+        end_bounds(origin_ns + stopped_ns);
         close_log(outcome, stopped_ns);
         return outcome;
     }
@@ -166,6 +169,19 @@ class SystemBase {
     const SystemPlan& plan() const noexcept { return plan_; }
     const Unit& unit(std::size_t task) const noexcept { return *units_[task]; }
     const TaskContext<C>& context(std::size_t task) const noexcept { return *contexts_[task]; }
+    /// What was seen of all that the chart bounds. Allocates: yes.
+    std::vector<BoundAccount> bounds() const {
+        std::vector<BoundAccount> all;
+        for (const auto& context : contexts_) {
+            for (const Bound& bound : context->bounds()) {
+                all.push_back(bound.account());
+            }
+        }
+        for (const auto& way : ways_) {
+            all.push_back(way->bound().account());
+        }
+        return all;
+    }
 
   protected:
     SystemBase(C& clock, SystemPlan plan, const Options& options)
@@ -174,6 +190,15 @@ class SystemBase {
         for (std::size_t i = 0; i < plan_.tasks.size(); ++i) {
             contexts_.push_back(
                 std::make_unique<TaskContext<C>>(clock_, options_.pacing, static_cast<std::uint16_t>(i)));
+        }
+        for (const BoundPlan& bound : plan_.bounds) {
+            contexts_[bound.task]->count(bound);
+        }
+        for (const WayPlan& way : plan_.ways) {
+            ways_.push_back(std::make_unique<Way>(way, plan_.tick_ns));
+            for (const auto& context : contexts_) {
+                context->is_on(*ways_.back());
+            }
         }
     }
 
@@ -214,8 +239,7 @@ class SystemBase {
 
     /// Now, as deadlines see it: in modelled time the present tick.
     std::int64_t instant_ns(std::size_t number) const noexcept {
-        const std::int64_t now_ns = clock_.now_ns();
-        return contexts_[number]->pace.is_modelled() ? now_ns - now_ns % plan_.tick_ns : now_ns;
+        return contexts_[number]->instant_ns();
     }
 
     /// An asynchronous task that awaits nothing is ready again when a cycle would be over, as the model has it.
@@ -230,6 +254,10 @@ class SystemBase {
     void cycle(std::size_t number, const Cycle& cycle, Body&& body) {
         TaskContext<C>& own = task(number);
         own.begin_cycle(cycle.number);
+        if (cycle.rested) {
+            own.released(own.instant_ns() - cycle.start_ns);
+        }
+        own.ways_begin();
         own.pace.begin_cycle(plan_.tasks[number].single_phase);
         Phases<C> phases{own, cycle};
         try {
@@ -239,6 +267,7 @@ class SystemBase {
             own.at_rest();
             throw;
         }
+        own.ways_end();
         own.pace.end_cycle();
         own.at_rest();
     }
@@ -443,6 +472,31 @@ class SystemBase {
         }
     }
 
+    // Those of tasks that hang are left alone.
+    void end_bounds(std::int64_t stopped_ns) noexcept {
+        for (std::size_t i = 0; i < contexts_.size(); ++i) {
+            if (units_[i]->state() != TaskState::running) {
+                for (Bound& bound : contexts_[i]->bounds()) {
+                    bound.end(stopped_ns);
+                }
+            }
+        }
+    }
+
+    // What was seen of the chart's bounds, each by its number.
+    static void tell_bounds(const std::vector<BoundAccount>& bounds, McapFile::Map& about) {
+        for (std::size_t i = 0; i < bounds.size(); ++i) {
+            const BoundAccount& bound = bounds[i];
+            const std::string number = " " + std::to_string(i);
+            about.emplace_back("bound" + number, bound.what);
+            about.emplace_back("limit" + number, bound.limit);
+            about.emplace_back("seen" + number, std::to_string(bound.seen));
+            about.emplace_back("below" + number, std::to_string(bound.below));
+            about.emplace_back("beyond" + number, std::to_string(bound.beyond));
+            about.emplace_back((bound.is_time ? "greatest_ns" : "greatest") + number, std::to_string(bound.greatest));
+        }
+    }
+
     void close_log(Ending& outcome, std::int64_t stopped_ns) {
         outcome.realtime_refused = realtime_refused_;
         if (recorder_ == nullptr) {
@@ -455,6 +509,7 @@ class SystemBase {
             about.emplace_back("cycle", std::to_string(outcome.cycle));
             about.emplace_back("reason", outcome.reason);
         }
+        tell_bounds(bounds(), about);
         recorder_->finish(about);
         outcome.log_error = recorder_->error();
         outcome.log_lost = recorder_->lost();
@@ -468,6 +523,7 @@ class SystemBase {
     std::atomic<bool> ending_{false};
     // Before the units, which record until they have ended.
     std::unique_ptr<Recorder> recorder_{};
+    std::vector<std::unique_ptr<Way>> ways_{};
     std::vector<std::unique_ptr<TaskContext<C>>> contexts_{};
     std::vector<std::unique_ptr<Unit>> units_{};
 };

@@ -23,6 +23,7 @@ struct Cycle {
     std::int64_t number = 0;              ///< from 0 on
     std::int64_t start_ns = 0;            ///< when it was due; in an asynchronous task: when it was woken
     std::int64_t deadline_ns = never_ns;  ///< when it must be done
+    bool rested = true;                   ///< no cycle before it was still at work when it was due
     Watchdog& watchdog;                   ///< bounds the waiting of this cycle
 };
 

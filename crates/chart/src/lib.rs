@@ -29,7 +29,7 @@ mod subject;
 mod symbolic;
 pub mod system;
 pub mod times;
-mod ways;
+pub mod ways;
 mod write;
 pub mod xml;
 

@@ -64,6 +64,33 @@ pub(crate) fn prepared(system: &System, component: usize, written: Option<usize>
     }
 }
 
+/// A way, and where its components decide what goes on: by the index of an elaboration, if there is any.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Followed {
+    /// The component in which it begins.
+    pub first: usize,
+    /// The channels, and where the writer of each decides what it writes.
+    pub hops: Vec<(usize, Option<usize>)>,
+    /// The component at its end.
+    pub end: usize,
+    /// Where that one decides.
+    pub decided: Option<usize>,
+}
+
+/// The ways of a bound, as the model follows them.
+pub fn followed(system: &System, bound: &AgeBound) -> Vec<Followed> {
+    let each = |(first, channels): (usize, Vec<usize>)| {
+        let end = channels.last().map_or(first, |channel| system.channels[*channel].to);
+        let hop = |channel: usize| {
+            let writer = system.channels[channel].from;
+            (channel, prepared(system, writer, accessed(system, writer, &Action::Write(channel))))
+        };
+        let hops = channels.into_iter().map(hop).collect();
+        Followed { first, hops, end, decided: prepared(system, end, None) }
+    };
+    ways(system, bound).into_iter().map(each).collect()
+}
+
 /// The index of the phase in which a component reads or writes a channel.
 pub(crate) fn accessed(system: &System, component: usize, action: &Action) -> Option<usize> {
     system.components[component].phases.iter().position(|phase| phase.action == *action)

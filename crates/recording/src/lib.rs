@@ -60,6 +60,45 @@ impl Track {
     }
 }
 
+/// What a program counted of a bound that its chart states.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Bounded {
+    /// What is bounded, in words.
+    pub what: String,
+    /// The bound, as the chart has it.
+    pub limit: String,
+    /// How often it was looked at.
+    pub seen: u64,
+    /// Values below the least one.
+    pub below: u64,
+    /// Values beyond the greatest one.
+    pub beyond: u64,
+    /// The greatest value.
+    pub greatest: Greatest,
+}
+
+impl Bounded {
+    /// How often it was not kept.
+    pub fn outside(&self) -> u64 {
+        self.below.saturating_add(self.beyond)
+    }
+}
+
+/// The greatest value of something that is bounded.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Greatest {
+    /// A length of time, in nanoseconds.
+    Time(u64),
+    /// How many.
+    Number(u64),
+}
+
+impl Default for Greatest {
+    fn default() -> Greatest {
+        Greatest::Number(0)
+    }
+}
+
 /// The events of a run.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Recording {
@@ -75,6 +114,8 @@ pub struct Recording {
     pub wait_free: Vec<String>,
     /// When the tasks were asked to stop; none if the log ends before.
     pub stopped_ns: Option<i64>,
+    /// What the program counted of the bounds of its chart; known once the log is written to its end.
+    pub bounds: Vec<Bounded>,
     /// The log was written to its end.
     pub ended: bool,
     /// All events before this instant have been read.

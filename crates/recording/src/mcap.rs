@@ -12,7 +12,7 @@ use std::sync::Arc;
 use serde::Deserialize;
 
 use crate::checksum::Checksum;
-use crate::{Decision, Event, Kind, Recording, Rhythm, Track};
+use crate::{Bounded, Decision, Event, Greatest, Kind, Recording, Rhythm, Track};
 
 /// What is wrong with a file that is no recording.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -22,6 +22,24 @@ const MAGIC: &[u8] = b"\x89MCAP0\r\n";
 
 /// The footer up to its checksum, which covers it, with what stands before it of every record.
 const FOOTER: usize = 9 + 16;
+
+/// What the end of a log says of bounds, each by its number.
+fn bounds(values: &BTreeMap<&str, &str>) -> Vec<Bounded> {
+    let of = |number: usize| {
+        let text = |what: &str| values.get(format!("{what} {number}").as_str()).copied();
+        let count = |what: &str| text(what).and_then(|text| text.parse().ok());
+        let greatest = count("greatest_ns").map(Greatest::Time).or(count("greatest").map(Greatest::Number))?;
+        Some(Bounded {
+            what: text("bound")?.to_string(),
+            limit: text("limit")?.to_string(),
+            seen: count("seen")?,
+            below: count("below")?,
+            beyond: count("beyond")?,
+            greatest,
+        })
+    };
+    (0..).map_while(of).collect()
+}
 
 fn malformed<T>(words: impl Into<String>) -> Result<T, Malformed> {
     Err(Malformed(words.into()))
@@ -307,6 +325,7 @@ impl Reader {
                 recording.stopped_ns = stopped_ns;
                 if name == "end" {
                     recording.ended = true;
+                    recording.bounds = bounds(values);
                     // The program counts what it lost; what is told of the tasks' numbers does not undo that.
                     let lost = !matches!(text("lost"), "" | "0");
                     for track in &mut recording.tracks {

@@ -33,6 +33,7 @@ pub use html::{LiveTimeline, render_html, render_mutation, render_program, rende
 pub use levels::Levels;
 pub use mutation::{Fate, JudgedMutant, MutatedFile, MutationAnalysis};
 pub use program::{ChannelAge, ClosedLoop, Held, Joint, Program, ProgramRun, TaskTiming, View};
+pub use recording::{Bounded, Greatest};
 pub use report::{
     Buffer, Chart, Coverage, Fact, Invariant, Lights, Measure, Queue, Report, Scenario, Series, Task, Verdict,
 };

@@ -42,17 +42,41 @@ struct RunOfProgram<'a> {
     events: u64,
     conforms: Option<bool>,
     reached: Option<bool>,
+    bounds: Vec<BoundOfProgram<'a>>,
+}
+
+/// What the program counted of a bound of its chart.
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+struct BoundOfProgram<'a> {
+    what: &'a str,
+    limit: &'a str,
+    seen: u64,
+    outside: u64,
+    /// The greatest value: in nanoseconds, but for missed deadlines how many.
+    greatest: u64,
 }
 
 impl<'a> ProgramReported<'a> {
     /// The report of a program's runs, and the files it was written to.
     pub fn new(program: &'a report::Program, files: Vec<String>) -> ProgramReported<'a> {
+        let bound = |bound: &'a report::Bounded| BoundOfProgram {
+            what: &bound.what,
+            limit: &bound.limit,
+            seen: bound.seen,
+            outside: bound.outside(),
+            greatest: match bound.greatest {
+                report::Greatest::Time(ns) => ns,
+                report::Greatest::Number(number) => number,
+            },
+        };
         let run = |run: &'a report::ProgramRun| RunOfProgram {
             conforms: run.verdict.as_ref().and_then(|held| held.conforms),
             events: run.events,
             name: &run.name,
             reached: run.closed_loop.as_ref().and_then(|world| world.reached),
             span_ns: run.span_ns,
+            bounds: run.bounds.iter().map(bound).collect(),
         };
         let runs = program.runs.iter().map(run).collect();
         ProgramReported { files, model: &program.model, runs, troubles: program.troubles(), r#type: "program" }

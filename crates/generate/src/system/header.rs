@@ -5,6 +5,7 @@ use std::fmt::Write;
 use chart::build::busy;
 use chart::system::{Action, Channel, ChannelKind, Component, System, Timing};
 
+use super::bounds::bounds;
 use super::cycle::cycle;
 use super::machines::{devices, has_messages};
 use super::names::{datum, hook, member, pascal};
@@ -176,7 +177,8 @@ fn plan(text: &mut String, system: &System, form: &Form) {
     let _ = write!(
         text,
         "        }},\n        .names = {{{names}}},\n        .wait_free = {{{wait_free}}},\n        \
-         .safe_stop = {{{order}}},\n    }};\n}}\n"
+         .safe_stop = {{{order}}},\n{}    }};\n}}\n",
+        bounds(system)
     );
 }
 

@@ -5,6 +5,7 @@
 //! user's that are written once. What cannot be generated is refused with its name and place. The runtime implements
 //! the phases (`cpp/include/groundstate/phases.hpp`); this module only selects them.
 
+mod bounds;
 mod cycle;
 mod files;
 mod header;

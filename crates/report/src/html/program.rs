@@ -5,7 +5,7 @@
 
 use crate::html::{data, lanes, section, verdicts};
 use crate::markup::{Base64, Text, put};
-use crate::program::{ChannelAge, ClosedLoop, LOSSY, Program, ProgramRun, TaskTiming};
+use crate::program::{ChannelAge, ClosedLoop, LOSSY, Program, ProgramRun, TaskTiming, show_greatest};
 use crate::svg::{distribution, error_norm, joint, show_ns};
 use crate::tally::Tally;
 use crate::time::count;
@@ -29,6 +29,7 @@ pub fn render_program(program: &Program) -> String {
     wake_ups(&mut out, program);
     ages(&mut out, program);
     deadlines(&mut out, program);
+    bounds(&mut out, program);
     verdicts::list_facts(&mut out, &program.facts);
     out.push_str("</main>\n");
     let model = Text(&program.model);
@@ -311,6 +312,36 @@ fn deadlines(out: &mut String, program: &Program) {
         out.push_str("</tbody>\n");
     }
     out.push_str("</table></div>\n</section>\n");
+}
+
+/// What the program counted of the bounds that its chart states.
+fn bounds(out: &mut String, program: &Program) {
+    if program.runs.iter().all(|run| run.bounds.is_empty()) {
+        return;
+    }
+    section(
+        out,
+        "bounds",
+        "What the chart bounds",
+        "How late cycles are released, how long elaborations take, how soon something new comes, how many deadlines are missed, how old data get, as the program counted it. Outside: how often a bound was not kept.",
+    );
+    out.push_str("<div class=\"wide\"><table class=\"bounds\">\n<thead><tr><th scope=\"col\">Bound</th><th scope=\"col\" class=\"left\">Limit</th><th scope=\"col\" class=\"left\">Run</th><th scope=\"col\">Seen</th><th scope=\"col\">Outside</th><th scope=\"col\">Most</th></tr></thead>\n<tbody>\n");
+    for run in &program.runs {
+        for bound in &run.bounds {
+            put!(
+                out,
+                "<tr><th scope=\"row\">{}</th><td class=\"left\">{}</td><td class=\"left\">{}</td>",
+                Text(&bound.what),
+                Text(&bound.limit),
+                Text(&run.name)
+            );
+            cell(out, Some(count(bound.seen)), false);
+            cell(out, Some(count(bound.outside())), bound.outside() > 0);
+            cell(out, Some(show_greatest(bound)), false);
+            out.push_str("</tr>\n");
+        }
+    }
+    out.push_str("</tbody>\n</table></div>\n</section>\n");
 }
 
 fn cell(out: &mut String, text: Option<String>, bad: bool) {

@@ -8,11 +8,12 @@ mod age;
 mod gantt;
 mod timing;
 
-use recording::Recording;
+use recording::{Bounded, Greatest, Recording};
 
 use crate::report::{Fact, Report};
 use crate::svg::show_ns;
 use crate::tally::Tally;
+use crate::time::count;
 
 /// Everything a page of a program shows: one or more runs of it, the first one in detail.
 #[derive(Debug, Clone, PartialEq)]
@@ -44,6 +45,8 @@ pub struct ProgramRun {
     pub tasks: Vec<TaskTiming>,
     /// The channels, in the order in which they are first read.
     pub channels: Vec<ChannelAge>,
+    /// What the program counted of the bounds of its chart.
+    pub bounds: Vec<Bounded>,
     /// What each task did at each moment, as lanes.
     pub lanes: Report,
     /// Whether its events are those of a run of the model. Added by the shell.
@@ -140,6 +143,15 @@ pub struct Joint {
     pub measured: Vec<(f64, f64)>,
 }
 
+/// The greatest value of something that is bounded, in words.
+pub(crate) fn show_greatest(bound: &Bounded) -> String {
+    match (bound.seen, bound.greatest) {
+        (0, _) => "-".to_string(),
+        (_, Greatest::Time(ns)) => show_ns(ns),
+        (_, Greatest::Number(number)) => count(number),
+    }
+}
+
 impl ProgramRun {
     /// The figures of a recording.
     pub fn of(name: impl Into<String>, recording: &Recording) -> ProgramRun {
@@ -152,6 +164,7 @@ impl ProgramRun {
             events: recording.events() as u64,
             lossy: !recording.is_whole(),
             channels: age::channels(recording),
+            bounds: recording.bounds.clone(),
             lanes: gantt::lanes(recording, &tasks, span_ns),
             tasks,
             verdict: None,

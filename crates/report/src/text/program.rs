@@ -2,7 +2,7 @@
 
 use super::table::Table;
 use crate::markup::put;
-use crate::program::{LOSSY, Program};
+use crate::program::{LOSSY, Program, show_greatest};
 use crate::svg::show_ns;
 use crate::time::count;
 
@@ -45,6 +45,21 @@ pub fn summarise_program(program: &Program, options: &RunSummary) -> String {
             ]);
         }
         out.push_str(&tasks.render("  ", false));
+        if run.bounds.is_empty() {
+            continue;
+        }
+        out.push('\n');
+        let mut bounds = Table::new(&BOUNDS);
+        for bound in &run.bounds {
+            bounds.row(vec![
+                bound.what.clone(),
+                bound.limit.clone(),
+                count(bound.seen),
+                count(bound.outside()),
+                show_greatest(bound),
+            ]);
+        }
+        out.push_str(&bounds.render("  ", false));
     }
     out.push('\n');
     out.replace('\u{202f}', " ")
@@ -53,6 +68,9 @@ pub fn summarise_program(program: &Program, options: &RunSummary) -> String {
 /// The columns: for responses and wake-ups, what 99 of 100 do not exceed, and the worst.
 const HEAD: [&str; 9] =
     ["task", "period", "activations", "missed", "skipped", "response p99", "worst", "wake-up p99", "worst"];
+
+/// The columns of what the chart bounds: what was seen of it, and how often it was not kept.
+const BOUNDS: [&str; 5] = ["bound", "limit", "seen", "outside", "most"];
 
 fn line(out: &mut String, good: Option<bool>, words: &str, options: &RunSummary) {
     let (mark, colour) = match good {

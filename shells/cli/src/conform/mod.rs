@@ -116,7 +116,7 @@ fn tell(shell: &mut Shell, conformed: &Conformed) -> Result<Exit, Failure> {
             let decisions = decisions
                 .map(|decisions| format!("\n{decisions} decisions are those of the components' machines"))
                 .unwrap_or_default();
-            let (missed, silent) = (missed(recording), silent(recording));
+            let (missed, silent) = (missed(recording) + &outside(recording), silent(recording));
             format!("conforms {way}: {events} events, {steps} steps of the model{after}{decisions}{missed}{silent}")
         }
         Verdict::Unknown { events, reason } => {
@@ -151,6 +151,15 @@ fn missed(recording: &Recording) -> String {
         1 => format!("\n1 deadline was missed ({each}); whether the model forbids that is not looked at"),
         more => format!("\n{more} deadlines were missed ({each}); whether the model forbids that is not looked at"),
     }
+}
+
+/// What the program counted as outside the bounds of its chart. The events of such a run may be in order.
+fn outside(recording: &Recording) -> String {
+    let told = recording.bounds.iter().filter(|bound| bound.outside() > 0).map(|bound| {
+        let (what, limit, outside, seen) = (&bound.what, &bound.limit, bound.outside(), bound.seen);
+        format!("\n{outside} of {seen} were outside the chart's bounds, as the program counted: {what} ({limit})")
+    });
+    told.collect()
 }
 
 /// LIMIT: periods without an event that are told of.
