@@ -122,6 +122,9 @@ impl<'a> Yaml<'a> {
                         Event::Scalar(share, ..) if share.trim_end().ends_with('%') => {
                             (Often::True(share.into_owned()), Vec::new())
                         }
+                        Event::Scalar(text, ..) if text.trim_start().starts_with("after ") => {
+                            (Often::After(text.into_owned()), Vec::new())
+                        }
                         Event::MappingStart(..) => self.each()?,
                         _ => return Err(fault(whole, OFTEN)),
                     };
@@ -277,6 +280,7 @@ mod tests {
                 "at(A): Each([(Text(\"(1,2)\"), \"3\"), (Text(\"B\"), \"1\")]) at [\"'(1,2)': 3\", \"B: 1\"]",
             ],
         );
+        check("random: { stop: after 0..4..16 }", &["stop: After(\"after 0..4..16\") at []"]);
         check("random: { stop: true }", &[OFTEN]);
         check("random: [stop]", &[OFTEN]);
         check("random: { mode: { A: [1] } }", &[OFTEN]);

@@ -9,6 +9,7 @@ mod choose;
 mod clock;
 mod constants;
 mod decided;
+mod delayed;
 mod draw;
 mod inputs;
 mod invariants;

@@ -10,6 +10,7 @@ use machine::{Limits, LocationRef, Machine, Show, Value};
 use program::{FunctionId, FunctionKind, Program};
 
 use crate::constants::{read_input, split};
+use crate::delayed::{Delay, Waitings};
 use crate::draw::{Bounds, draw};
 use crate::inputs::{Ask, Source};
 use crate::read::{Written, read_written};
@@ -28,6 +29,8 @@ pub enum Often {
     True(String),
     /// Values, each with its weight or its share.
     Each(Vec<(Written, String)>),
+    /// It becomes true after a number of steps: `after 0..16`.
+    After(String),
 }
 
 /// What is wrong with weights, as a sentence for the user.
@@ -98,6 +101,7 @@ fn amount(text: &str) -> Result<Amount, String> {
 pub struct Weighted {
     seed: u64,
     rules: Vec<Rule>,
+    waitings: Waitings,
 }
 
 #[derive(Debug, Clone)]
@@ -106,6 +110,8 @@ struct Rule {
     /// None: all locations of the function.
     arguments: Option<Vec<Value>>,
     values: Vec<(Value, u64)>,
+    /// It is true after so many steps, and has no weights.
+    delay: Option<Delay>,
     /// The weight of all values together; what is left of it is for those without one.
     total: u64,
 }
@@ -113,7 +119,7 @@ struct Rule {
 impl Weighted {
     /// Draws by a seed; no weights yet.
     pub fn new(seed: u64) -> Self {
-        Weighted { seed, rules: Vec::new() }
+        Weighted { seed, ..Weighted::default() }
     }
 
     /// The same weights, drawn by another seed.
@@ -141,6 +147,7 @@ impl Weighted {
         };
         let parts = parts(values);
         let often = match &parts[..] {
+            _ if Delay::read(values).is_some() => Often::After(values.to_string()),
             [share] if share.trim().ends_with('%') && !share.contains(':') => Often::True(share.trim().to_string()),
             parts => Often::Each(parts.iter().map(|part| pair(part)).collect::<Result<_, String>>()?),
         };
@@ -161,13 +168,27 @@ impl Weighted {
                 (location.function, Some(location.arguments))
             }
         };
+        let is_boolean = || {
+            let truth = Written::Text("true".to_string());
+            matches!(read_written(program, program.function(function).codomain, &truth), Ok(Value::Boolean(_)))
+        };
         let boolean;
+        let mut delay = None;
         let each = match often {
             Often::Each(each) => each,
+            Often::After(text) => {
+                if !is_boolean() {
+                    let message = format!(
+                        "`{location}` is not Boolean: only what is true or false comes after a number of steps"
+                    );
+                    return Err(misfit(Misplaced::All, message));
+                }
+                let read = Delay::read(text).unwrap_or_else(|| Err(format!("`{text}` does not begin with `after`")));
+                delay = Some(read.map_err(|told| misfit(Misplaced::All, told))?);
+                &[][..]
+            }
             Often::True(share) => {
-                let truth = Written::Text("true".to_string());
-                let is_boolean = read_written(program, program.function(function).codomain, &truth);
-                if !matches!(is_boolean, Ok(Value::Boolean(_))) {
+                if !is_boolean() {
                     return Err(misfit(
                         Misplaced::All,
                         format!(
@@ -175,12 +196,15 @@ impl Weighted {
                         ),
                     ));
                 }
-                boolean = [(truth, share.clone())];
+                boolean = [(Written::Text("true".to_string()), share.clone())];
                 &boolean[..]
             }
         };
-        let (values, total) = weights(program, function, location, each)?;
-        let rule = Rule { function, arguments, values, total };
+        let (values, total) = match delay {
+            Some(_) => (Vec::new(), 0),
+            None => weights(program, function, location, each)?,
+        };
+        let rule = Rule { function, arguments, values, delay, total };
         // One location's own weights come before those of its function.
         let at = if rule.arguments.is_some() { 0 } else { self.rules.len() };
         self.rules.insert(at, rule);
@@ -273,6 +297,11 @@ impl Source for Weighted {
         let Some(rule) = self.rule(ask.location) else { return Ok(None) };
         let name = &ask.program.function(ask.location.function).name;
         let key = location_key_of(name, ask.program, ask.location.arguments);
+        if let Some(delay) = &rule.delay {
+            // A rule is no part of the waitings.
+            let delay = delay.clone();
+            return Ok(Some(Value::Boolean(self.waitings.is_over(&delay, self.seed, ask.step, key))));
+        }
         let mut stream = SplitMix::stream(self.seed, ask.step, key);
         let mut at = stream.below(rule.total);
         for (value, weight) in &rule.values {
