@@ -31,8 +31,7 @@ definitions:
 		if isUndef(task_jitter(scheduler_mainThread($c))) then
 			false
 		else
-			let ($late =
-				task_elapsedTimeOfPeriod(scheduler_mainThread($c)) - task_period(scheduler_mainThread($c))) in
+			let ($late = task_elapsedTimeOfPeriod(scheduler_mainThread($c)) - task_period(scheduler_mainThread($c))) in
 				$late >= 0 and $late < task_jitter(scheduler_mainThread($c)) and isBetweenCycles($c)
 			endlet
 		endif

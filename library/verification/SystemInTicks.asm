@@ -89,7 +89,7 @@ definitions:
 			implies (
 				task_elapsedTimeOfPeriod($t) >= 0
 				and task_elapsedTimeOfPeriod($t) - task_period($t)
-				<= (if isDef(task_jitter($t)) then task_jitter($t) else 0 endif)))
+					<= (if isDef(task_jitter($t)) then task_jitter($t) else 0 endif)))
 
 	// with no assumption of fairness: whoever asks for a lock gets it or gives up
 	CTLSPEC ctlSpec_served: (forall $t in Task with ag(af(not isAsking($t))))
