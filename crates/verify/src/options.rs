@@ -43,6 +43,8 @@ pub struct Options {
     pub max_bytes: u64,
     /// When states take so many bytes, they are packed more tightly, if their locations have few values. By default 64 MiB.
     pub census: Option<u64>,
+    /// One of several workers explores alone where a level leaves fewer states to the others. By default 64.
+    pub alone: Option<u64>,
     /// The values to try for inputs, if not all of their domains. What would Hold is Unknown with such a bound.
     pub bounds: Bounds,
     /// Inputs that may also be undef. What Holds then holds for these, too.
@@ -79,6 +81,7 @@ impl Default for Options {
             max_depth: u64::MAX,
             max_bytes: u64::MAX,
             census: None,
+            alone: None,
             bounds: BTreeMap::new(),
             undefined: BTreeSet::new(),
             terminal: None,

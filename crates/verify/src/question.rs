@@ -68,6 +68,7 @@ impl Question {
             max_depth: options.max_depth,
             max_bytes: options.max_bytes,
             census: options.census,
+            alone: options.alone,
             storage: options.storage,
             seed: options.seed,
             partial_order: options.partial_order,

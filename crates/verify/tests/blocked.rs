@@ -82,7 +82,7 @@ fn states_of_which_assumptions_leave_no_step_are_counted() {
             let (states, blocked) = walk.count(has_inputs, is_assumed);
             for options in [
                 Options::default(),
-                Options { workers: 2, ..Options::default() },
+                Options { workers: 2, alone: Some(0), ..Options::default() },
                 Options { storage: Storage::Compact, ..Options::default() },
             ] {
                 let report = verify(&program, &options, &mut |_| true).expect("the first place is assumed");

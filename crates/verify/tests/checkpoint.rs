@@ -94,7 +94,7 @@ fn agrees(program: &Arc<Program>, options: &Options, steps: u64, workers: &[usiz
     let mut keeper = Memory::default();
     for (index, workers) in workers.iter().copied().cycle().enumerate() {
         let max_states = steps * (index as u64 + 1);
-        let report = check(program, &Options { workers, max_states, ..options.clone() }, &mut keeper);
+        let report = check(program, &Options { workers, max_states, alone: Some(0), ..options.clone() }, &mut keeper);
         let report = report.expect("it goes on");
         if report.stop == Some(Stop::States) {
             assert!(keeper.kept.is_some() && report.verdicts.iter().all(|v| v.outcome != Outcome::Holds));
@@ -147,7 +147,8 @@ fn pauses_change_nothing() {
         let whole = straight(&program, &Options { engine: verify::EngineKind::Explicit, ..Options::default() });
         for workers in [1, 2] {
             let mut keeper = Memory { every, ..Memory::default() };
-            let report = check(&program, &Options { workers, ..Options::default() }, &mut keeper).expect("it starts");
+            let report = check(&program, &Options { workers, alone: Some(0), ..Options::default() }, &mut keeper)
+                .expect("it starts");
             assert!(keeper.times > 2);
             assert_eq!((report.verdicts, report.unreachable), (whole.verdicts.clone(), whole.unreachable.clone()));
             assert_eq!(report.progress.states, whole.progress.states);

@@ -142,7 +142,7 @@ fn agrees(program: &Arc<Program>, most: &Options) -> Report {
         Options { forgetful: true, ..most.clone() },
         Options { steps: EngineChoice::Interpreted, ..most.clone() },
         Options { steps: EngineChoice::Compiled, ..most.clone() },
-        Options { workers: 2, ..most.clone() },
+        Options { workers: 2, alone: Some(0), ..most.clone() },
     ];
     for other in others {
         assert_eq!(told(&pieces), told(&report(program, &other)), "{other:?}");

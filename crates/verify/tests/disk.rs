@@ -97,7 +97,13 @@ fn agrees(program: &Arc<Program>, options: &Options, bytes: u64) -> usize {
         let files = Files::new(i64::MAX);
         let spilled = check(
             program,
-            &Options { disk: Some(Arc::clone(&files) as Arc<_>), max_bytes: bytes, workers, ..options.clone() },
+            &Options {
+                disk: Some(Arc::clone(&files) as Arc<_>),
+                max_bytes: bytes,
+                workers,
+                alone: Some(0),
+                ..options.clone()
+            },
         );
         assert_eq!(told(program, &spilled), told(program, &whole));
         assert_eq!(files.open.load(Ordering::Relaxed), 0, "files are gone at the end");
@@ -137,6 +143,7 @@ fn limits_and_the_first_violation_end_it_alike() {
             max_bytes: 0,
             engine: EngineKind::Explicit,
             workers,
+            alone: Some(0),
             disk,
             ..Options::default()
         };
@@ -169,8 +176,10 @@ fn trouble_with_files_leaves_unknown_what_was_not_found() {
     for left in (0..200_000).step_by(2_500) {
         for workers in [1, 2] {
             let files = Files::new(left);
-            let report =
-                check(&program, &Options { disk: Some(Arc::clone(&files) as Arc<_>), workers, ..options.clone() });
+            let report = check(
+                &program,
+                &Options { disk: Some(Arc::clone(&files) as Arc<_>), workers, alone: Some(0), ..options.clone() },
+            );
             assert_eq!(files.open.load(Ordering::Relaxed), 0);
             let trouble = files.left.load(Ordering::Relaxed) < 0;
             assert_eq!(report.stop, trouble.then_some(Stop::Disk));

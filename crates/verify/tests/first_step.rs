@@ -195,7 +195,7 @@ fn ways() -> Vec<(&'static str, Options)> {
         ("explicit", plain.clone()),
         ("forgetful", Options { forgetful: true, ..plain.clone() }),
         ("compiled", Options { forgetful: true, steps: EngineChoice::Compiled, ..plain.clone() }),
-        ("two workers", Options { workers: 2, ..plain.clone() }),
+        ("two workers", Options { workers: 2, alone: Some(0), ..plain.clone() }),
         ("partial order", Options { partial_order: true, ..plain.clone() }),
         ("symmetry", Options { symmetry: true, ..plain.clone() }),
         ("sets", Options { engine: EngineKind::Symbolic, ..plain.clone() }),

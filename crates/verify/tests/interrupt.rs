@@ -110,6 +110,7 @@ fn who_has_had_enough_gets_the_reason() {
             let options = Options {
                 engine: EngineKind::Explicit,
                 workers: 2,
+                alone: Some(0),
                 storage,
                 interrupt: interrupt.clone(),
                 ..Options::default()
@@ -154,7 +155,8 @@ fn sets_of_states_are_not_waited_for() {
 fn a_limit_of_states_is_passed_by_the_steps_of_one_state_at_most() {
     let program = wide(40);
     for (workers, max_states) in [(1, 100), (2, 100), (1, 1599)] {
-        let options = Options { engine: EngineKind::Explicit, workers, max_states, ..Options::default() };
+        let options =
+            Options { engine: EngineKind::Explicit, workers, max_states, alone: Some(0), ..Options::default() };
         let report = verify(&program, &options, &mut |_| true).expect("there is an initial state");
         assert_eq!((report.stop, report.progress.states), (Some(Stop::States), 1600), "all by the first state");
     }
@@ -210,7 +212,7 @@ fn what_is_violated_is_told_while_the_search_goes_on() {
     let expected = verify(&program, &Options { max_depth: 8, ..Options::default() }, &mut |_| true);
     let expected = outcome(&expected.expect("there is an initial state"), "inv_small", &program);
     for workers in [1, 2] {
-        let (options, mut ear) = (Options { workers, ..Options::default() }, Ear::default());
+        let (options, mut ear) = (Options { workers, alone: Some(0), ..Options::default() }, Ear::default());
         // It would not end.
         let request = Request::of(&program, options).build().expect("nothing is in conflict");
         let report = request.verify(&mut NoSolvers, &mut ear);

@@ -52,8 +52,8 @@ fn the_swinging_buffer_is_right() {
 fn without_the_lock_the_twelfth_step_reads_half_of_a_datum() {
     let program = program("SwingUnlocked");
     let mut told = Vec::new();
-    for workers in [1, 2, 3] {
-        let report = check(&program, &Options { workers, ..Options::default() });
+    for (workers, alone) in [(1, 0), (2, 0), (2, 64), (3, 0), (3, 64)] {
+        let report = check(&program, &Options { workers, alone: Some(alone), ..Options::default() });
         assert_eq!(violated(&program, &report), [("inv_whole".to_string(), 12)]);
         let Outcome::Violated(trace) = &report.verdicts[4].outcome else { panic!("the invariant is violated") };
         let changes = trace.steps[11].changes.iter();
@@ -75,8 +75,8 @@ fn philosophers_have_three_to_the_n_states_but_one_and_one_deadlock() {
 #[test]
 fn a_panic_ends_all_workers() {
     let program = program("Swing");
-    for workers in [1, 2, 3] {
-        let options = Options { workers, ..Options::default() };
+    for (workers, alone) in [(1, 0), (2, 0), (2, 64), (3, 0)] {
+        let options = Options { workers, alone: Some(alone), ..Options::default() };
         let mut seen = 0;
         let searched = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| {
             let mut watch = |_: &_| {
@@ -86,7 +86,7 @@ fn a_panic_ends_all_workers() {
             };
             verify(&program, &options, &mut watch).is_ok()
         }));
-        assert!(searched.is_err(), "{workers} workers go on after a panic");
+        assert!(searched.is_err(), "{workers} workers, alone below {alone}, go on after a panic");
     }
 }
 

@@ -18,9 +18,9 @@ use crate::plan::Plan;
 use crate::progress::Stop;
 use crate::storage::Storage;
 
-/// LIMIT: so many states of a round are not worth waking the others for. That takes some hundred microseconds, and much longer on
+/// LIMIT: fewer states of a round are not worth waking the others for. That takes some hundred microseconds, and much longer on
 /// a busy machine; the steps of a state take one to twenty.
-const NARROW: u64 = 64;
+const ALONE: u64 = 64;
 
 /// What all workers share besides their messages.
 pub(crate) struct Crew<'a> {
@@ -193,7 +193,7 @@ impl Rounds<'_> {
             };
             let to_do: u64 = reports.iter().map(|report| report.left + report.fresh + report.pending).sum();
             let of_others = to_do - to_do.div_ceil(count as u64);
-            if matches!(decision, Decision::Stop(_)) || of_others > NARROW {
+            if matches!(decision, Decision::Stop(_)) || of_others >= self.plan.alone.unwrap_or(ALONE) {
                 return order;
             }
             (0..count).for_each(|index| self.follow(index, order));
