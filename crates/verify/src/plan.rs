@@ -32,8 +32,7 @@ pub struct Plan {
     pub max_bytes: u64,
     /// When states take so many bytes, they are packed more tightly; see [`crate::explicit::search`] for the default.
     pub census: Option<u64>,
-    /// The first of several workers does a round alone where fewer states would be left to others; see [`crate::explicit::crew`] for
-    /// the default.
+    /// The first of several workers does a round alone where it would leave fewer states to the others; by default 64.
     pub alone: Option<u64>,
     /// Whether to keep the edges walked, for properties of runs, where states are stored in full and there is memory.
     pub edges: bool,
