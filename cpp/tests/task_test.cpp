@@ -125,8 +125,8 @@ TEST(Tasks, KnowWhetherTheyRestedWhenACycleWasDue) {
         rested.push_back(cycle.rested);
         clock.sleep_until_ns(clock.now_ns() + (cycle.number == 1 ? 15 : 2));
     }};
-    clock.enter(1);
     task.start(0);
+    clock.enter(1);
     clock.sleep_until_ns(45);
     task.ask_to_stop();
     clock.leave();
