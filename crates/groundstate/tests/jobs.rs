@@ -235,6 +235,22 @@ fn scenarios_are_told_one_by_one() {
     assert!(job.next_event().is_none());
 }
 
+/// Nobody is woken for what the next event makes out of date, and it never comes behind what was sent later.
+#[test]
+fn what_is_mentioned_is_read_when_there_is_nothing_else() {
+    let work = |port: groundstate::job::Port<u32>| {
+        (0..1000).for_each(|number| port.mention(number));
+        port.tell(1000);
+        (1001..2000).for_each(|number| port.mention(number));
+    };
+    for _ in 0..20 {
+        let job = Job::start("mention", Cancel::new(), work).expect("a thread");
+        let read: Vec<u32> = std::iter::from_fn(|| job.next_event()).collect();
+        assert!(read.is_sorted() && read.contains(&1000) && read.last() == Some(&1999), "{read:?}");
+        job.finish().expect("no panic");
+    }
+}
+
 #[test]
 fn a_panic_is_told_as_what_it_is() {
     let job: Job<(), ()> = Job::start("panic", Cancel::new(), |_| panic!("a bug")).expect("a thread");

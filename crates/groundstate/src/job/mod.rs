@@ -2,8 +2,9 @@
 //!
 //! In: the work, which gets a [`Port`] to its owner. Out: a [`Job`]. Events go through a bounded channel: a job that
 //! sends faster than its owner reads waits, so memory does not grow. Frequent events are sent in batches, which the
-//! reader does not see. INVARIANT: a job whose owner is gone ends as if it had been cancelled; events arrive in the
-//! order in which they were sent.
+//! reader does not see. What is only mentioned, such as progress, wakes nobody: the reader looks for it now and then.
+//! INVARIANT: a job whose owner is gone ends as if it had been cancelled; events arrive in the
+//! order in which they were sent, and nothing that is mentioned arrives after an event that was sent later.
 
 mod conform;
 pub(crate) mod desk;
@@ -20,6 +21,7 @@ mod verify;
 use std::cell::RefCell;
 use std::collections::VecDeque;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, TryRecvError, sync_channel};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread::{Builder, JoinHandle};
 use std::time::Duration;
 
@@ -48,6 +50,10 @@ const WAITING: usize = 64;
 /// The largest number of events in a batch.
 const BATCH: usize = 64;
 
+/// How often a reader that waits for events looks for what was mentioned. A search mentions its progress a hundred thousand times a
+/// second, and to wake a thread takes as long as to make some steps.
+const LOOK: Duration = Duration::from_millis(20);
+
 /// At least as large as a main thread's stack: deep terms are evaluated by recursion.
 const STACK: usize = 16 << 20;
 
@@ -57,6 +63,7 @@ pub struct Job<E, T> {
     events: Receiver<Vec<E>>,
     /// Events of the last batch that were not read yet.
     read: RefCell<VecDeque<E>>,
+    mentioned: Mentioned<E>,
     thread: JoinHandle<T>,
     cancel: Cancel,
 }
@@ -109,7 +116,15 @@ impl From<Interrupt> for Cancel {
 pub struct Port<E> {
     events: SyncSender<Vec<E>>,
     held: RefCell<Vec<E>>,
+    mentioned: Mentioned<E>,
     cancel: Cancel,
+}
+
+/// The last event that was mentioned and not read.
+type Mentioned<E> = Arc<Mutex<Option<E>>>;
+
+fn slot<E>(mentioned: &Mentioned<E>) -> MutexGuard<'_, Option<E>> {
+    mentioned.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 impl<E> Port<E> {
@@ -129,16 +144,21 @@ impl<E> Port<E> {
         }
     }
 
-    /// Sends an event unless too many are unread. For events that the next one makes out of date.
+    /// Lays out an event for a reader who has nothing else to read, in place of the one before. For events that the
+    /// next one makes out of date.
     pub fn mention(&self, event: E) {
         if self.held.borrow().is_empty() {
-            let _ = self.events.try_send(vec![event]);
+            *slot(&self.mentioned) = Some(event);
         }
     }
 
     fn flush(&self) {
         let held = self.held.take();
-        if !held.is_empty() && self.events.send(held).is_err() {
+        if held.is_empty() {
+            return;
+        }
+        *slot(&self.mentioned) = None;
+        if self.events.send(held).is_err() {
             self.cancel.cancel();
         }
     }
@@ -170,24 +190,46 @@ impl<E: Send + 'static, T: Send + 'static> Job<E, T> {
         work: impl FnOnce(Port<E>) -> T + Send + 'static,
     ) -> Result<Job<E, T>, std::io::Error> {
         let (sender, events) = sync_channel(WAITING);
-        let port = Port { events: sender, held: RefCell::default(), cancel: cancel.clone() };
+        let mentioned = Mentioned::default();
+        let port = Port {
+            events: sender,
+            held: RefCell::default(),
+            mentioned: Arc::clone(&mentioned),
+            cancel: cancel.clone(),
+        };
         let thread = Builder::new().name(name.to_string()).stack_size(STACK).spawn(move || work(port))?;
-        Ok(Job { events, read: RefCell::default(), thread, cancel })
+        Ok(Job { events, read: RefCell::default(), mentioned, thread, cancel })
     }
 }
 
 impl<E, T> Job<E, T> {
     /// Waits for the next event; `None` when the work has ended.
     pub fn next_event(&self) -> Option<E> {
-        self.next_of(|events| events.recv()).ok()
+        loop {
+            match self.next_event_within(LOOK) {
+                Ok(event) => return Some(event),
+                Err(RecvTimeoutError::Timeout) => {}
+                Err(RecvTimeoutError::Disconnected) => return None,
+            }
+        }
     }
 
     /// Waits at most this long for the next event.
     ///
     /// # Errors
     /// No event came in time, or the work has ended ([`RecvTimeoutError::Disconnected`]).
-    pub fn next_event_within(&self, time: Duration) -> Result<E, RecvTimeoutError> {
-        self.next_of(|events| events.recv_timeout(time))
+    pub fn next_event_within(&self, mut time: Duration) -> Result<E, RecvTimeoutError> {
+        loop {
+            let waits = time.min(LOOK);
+            match self.next_of(|events| events.recv_timeout(waits)) {
+                Ok(event) => return Ok(event),
+                Err(ended) => match self.mentioned_event() {
+                    Some(event) => return Ok(event),
+                    None if ended == RecvTimeoutError::Disconnected || waits == time => return Err(ended),
+                    None => time -= waits,
+                },
+            }
+        }
     }
 
     /// The next event if there is one, without waiting.
@@ -195,7 +237,13 @@ impl<E, T> Job<E, T> {
     /// # Errors
     /// There is none.
     pub fn poll(&self) -> Result<E, TryRecvError> {
-        self.next_of(|events| events.try_recv())
+        self.next_of(|events| events.try_recv()).or_else(|none| self.mentioned_event().ok_or(none))
+    }
+
+    /// What was mentioned last, or what was sent before it and has not been read.
+    fn mentioned_event(&self) -> Option<E> {
+        let mut mentioned = slot(&self.mentioned);
+        self.next_of(|events| events.try_recv()).ok().or_else(|| mentioned.take())
     }
 
     fn next_of<X>(&self, receive: impl Fn(&Receiver<Vec<E>>) -> Result<Vec<E>, X>) -> Result<E, X> {
