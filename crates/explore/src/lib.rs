@@ -21,7 +21,7 @@ pub use alternatives::told::{ChoiceTaken, Told};
 pub use alternatives::unbounded::{Unbounded, UnboundedKind};
 pub use assumed::{assumed_bounds, input_values};
 pub use explorer::Explorer;
-pub use explorer::census::Unlike;
+pub use explorer::census::{Mover, Unlike};
 pub use explorer::orbit::{Orbits, Permutation};
 pub use explorer::paths::{Outcome, Path};
 pub use explorer::sets::{Alternative, Judged, SetTrouble, StateSets, Visit};

@@ -86,14 +86,11 @@ impl Explorer {
         Rooms(rooms)
     }
 
-    /// The states of a search as this explorer packs them, if it has the same fields as that search's, with the same interner;
-    /// those of that search come one after the other.
-    pub fn moved<'s>(
-        &mut self,
-        from: &Explorer,
-        states: impl Iterator<Item = &'s [u64]>,
-        mut visit: impl FnMut(&[u64]),
-    ) -> Result<(), Unlike> {
+    /// Packs states of a search as this explorer packs them, if it has the same fields as that search's, with the same interner.
+    ///
+    /// # Errors
+    /// It has others.
+    pub fn mover(&self, from: &Explorer) -> Result<Mover, Unlike> {
         let (old, new) = (Arc::clone(&from.encoding), Arc::clone(&self.encoding));
         let place = |field: &Field| (field.location, field.function);
         let alike = Arc::ptr_eq(from.view.shared(), self.view.shared())
@@ -108,46 +105,8 @@ impl Explorer {
         for (index, field) in old.fields.iter().enumerate().filter(|(_, field)| field.bits > 0) {
             by_word[field.word as usize].push(index);
         }
-        let mut next = vec![0; new.words];
-        let mut last: Option<&[u64]> = None;
-        for state in states {
-            for (word, fields) in by_word.iter().enumerate() {
-                let differs = last.map_or(u64::MAX, |last| last[word] ^ state[word]);
-                for index in fields.iter().filter(|index| old.fields[**index].mask() & differs != 0) {
-                    self.move_field(&old, &new, *index, state, &mut next)?;
-                }
-            }
-            if last.is_none() {
-                for index in (0..old.fields.len()).filter(|index| old.fields[*index].bits == 0) {
-                    self.move_field(&old, &new, index, state, &mut next)?;
-                }
-            }
-            last = Some(state);
-            visit(&next);
-        }
-        Ok(())
-    }
-
-    fn move_field(
-        &mut self,
-        old: &Encoding,
-        new: &Encoding,
-        index: usize,
-        state: &[u64],
-        next: &mut [u64],
-    ) -> Result<(), Unlike> {
-        let (from, to) = (old.fields[index], new.fields[index]);
-        let same = from.location == NOWHERE
-            || from.few == to.few && old.codes[from.function.0 as usize] == new.codes[from.function.0 as usize];
-        let code = match same {
-            true => from.code(state),
-            false => {
-                let value = old.value(from, state, &mut self.view);
-                new.code(to, &value, &mut self.view).map_err(|_| Unlike)?
-            }
-        };
-        to.put(code, next);
-        Ok(())
+        let known = vec![Vec::new(); old.fields.len()];
+        Ok(Mover { next: vec![0; new.words], last: Vec::new(), by_word, known, old, new })
     }
 
     /// More room, for locations that have outgrown theirs above all. The search is in a hurry if it has not come far since the
@@ -178,5 +137,78 @@ impl Explorer {
             }
         }
         Rooms(rooms)
+    }
+}
+
+/// How the states of one search become those of another ([`Explorer::mover`]). States that come one after the other
+/// should differ little.
+#[derive(Debug)]
+pub struct Mover {
+    old: Arc<Encoding>,
+    new: Arc<Encoding>,
+    /// By word of an old state, the fields in it.
+    by_word: Vec<Vec<usize>>,
+    /// By field and old code, the new code of the same value.
+    known: Vec<Vec<u64>>,
+    /// The old state that came last; empty before the first.
+    last: Vec<u64>,
+    next: Vec<u64>,
+}
+
+/// LIMIT: larger codes are looked up anew each time.
+const NEAR: u64 = 1 << 12;
+/// A code that is not known yet.
+const UNKNOWN: u64 = u64::MAX;
+
+impl Mover {
+    /// A state as `explorer`, which the mover is of, packs it.
+    ///
+    /// # Errors
+    /// A field of that explorer has no room for a value.
+    pub fn state(&mut self, explorer: &mut Explorer, state: &[u64]) -> Result<&[u64], Unlike> {
+        if self.last.is_empty() {
+            for index in 0..self.old.fields.len() {
+                self.field(explorer, index, state)?;
+            }
+            self.last.extend_from_slice(state);
+        }
+        for word in 0..self.by_word.len() {
+            let differs = self.last[word] ^ state[word];
+            if differs == 0 {
+                continue;
+            }
+            for place in 0..self.by_word[word].len() {
+                let index = self.by_word[word][place];
+                if self.old.fields[index].mask() & differs != 0 {
+                    self.field(explorer, index, state)?;
+                }
+            }
+            self.last[word] = state[word];
+        }
+        Ok(&self.next)
+    }
+
+    fn field(&mut self, explorer: &mut Explorer, index: usize, state: &[u64]) -> Result<(), Unlike> {
+        let Mover { old, new, known, next, .. } = self;
+        let (from, to) = (old.fields[index], new.fields[index]);
+        let code = from.code(state);
+        let same = from.location == NOWHERE
+            || from.few == to.few && old.codes[from.function.0 as usize] == new.codes[from.function.0 as usize];
+        let code = match known[index].get(code as usize) {
+            _ if same => code,
+            Some(&code) if code != UNKNOWN => code,
+            _ => {
+                let value = old.value(from, state, &mut explorer.view);
+                let moved = new.code(to, &value, &mut explorer.view).map_err(|_| Unlike)?;
+                if code < NEAR {
+                    let known = &mut known[index];
+                    known.resize(known.len().max(code as usize + 1), UNKNOWN);
+                    known[code as usize] = moved;
+                }
+                moved
+            }
+        };
+        to.put(code, next);
+        Ok(())
     }
 }

@@ -36,13 +36,13 @@ pub(crate) fn packed_anew(from: &Explorer, to: &mut Explorer, shards: Vec<Shard>
     let mut levels: Vec<Vec<usize>> = vec![Vec::new(); count];
     let mut next = vec![0; count];
     let depth = shards[0].levels.len();
+    let mut mover = to.mover(from)?;
     let mut expanded = Vec::new();
     for level in 0..=depth {
         let (done, open) = groups(&shards, level);
         for (group, is_done) in done.iter().map(|group| (group, true)).chain(open.iter().map(|group| (group, false))) {
-            let mut index = group.states.start;
-            let states = group.states.clone().map(|index| tables[group.shard].state(index));
-            to.moved(from, states, |state| {
+            for index in group.states.clone() {
+                let state = mover.state(to, tables[group.shard].state(index))?;
                 let now = owner(state, count);
                 stored[now].insert_each(state, &mut |_| {}, &mut |place| {
                     places[group.shard][index] = (now as u8, place);
@@ -50,8 +50,7 @@ pub(crate) fn packed_anew(from: &Explorer, to: &mut Explorer, shards: Vec<Shard>
                 if is_done {
                     next[now] = stored[now].len();
                 }
-                index += 1;
-            })?;
+            }
         }
         expanded.extend(done);
         if level < depth {
@@ -63,9 +62,8 @@ pub(crate) fn packed_anew(from: &Explorer, to: &mut Explorer, shards: Vec<Shard>
     for (((shard, table), levels), next) in shards.into_iter().zip(stored).zip(levels).zip(next) {
         let mut found = Vec::with_capacity(shard.found.len());
         for one in shard.found {
-            let mut state = None;
-            to.moved(from, std::iter::once(&*one.state), |state_now| state = Some(state_now.into()))?;
-            found.extend(state.map(|state| Found { state, ..one }));
+            let state = mover.state(to, &one.state)?.into();
+            found.push(Found { state, ..one });
         }
         let edges = edges.as_mut().map(|edges| std::mem::take(&mut edges[moved.len()]));
         moved.push(Shard { store: Store::Exact(table), levels, next, found, edges, ..shard });
