@@ -251,9 +251,9 @@ impl Rounds<'_> {
         }
         let broken = lock(&self.board).reports.iter().any(|report| report.broken);
         if let Some(edges) = shard.edges.as_mut().filter(|_| !broken) {
-            let arrived: Vec<Vec<u32>> =
-                self.places[index].iter().map(|places| std::mem::take(&mut *lock(places))).collect();
+            let mut arrived: Vec<MutexGuard<'_, Vec<u32>>> = self.places[index].iter().map(lock).collect();
             edges.arrive(&arrived);
+            arrived.iter_mut().for_each(|places| places.clear());
         }
         match order.decision {
             Decision::Round | Decision::Settle | Decision::Stop(_) => {}

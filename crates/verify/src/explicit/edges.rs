@@ -4,6 +4,8 @@
 //! they stand there. Out: compressed rows, in the order in which the worker's states were expanded. INVARIANT: between two rounds there is
 //! a place for each successor. [`crate::walk`] joins the edges of all workers.
 
+use std::ops::Deref;
+
 use explore::Expansion;
 
 /// LIMIT: with more workers no edges are kept.
@@ -77,7 +79,7 @@ impl Edges {
     }
 
     /// Adds the places of the successors of a round: of each worker, in the order in which they were sent to it.
-    pub fn arrive(&mut self, places: &[Vec<u32>]) {
+    pub fn arrive<P: Deref<Target = Vec<u32>>>(&mut self, places: &[P]) {
         let mut next = vec![0; places.len()];
         for owner in &self.owners[self.targets.len()..] {
             let owner = usize::from(*owner);

@@ -62,6 +62,8 @@ pub(crate) struct Shard {
     pub edges: Option<Edges>,
     /// Some work was left undone because the caller asked to stop.
     pub cut: bool,
+    /// Room for the successors of a state.
+    pub successors: Vec<u64>,
 }
 
 /// The worker that owns a state.
@@ -119,6 +121,7 @@ impl Shard {
             lineage: None,
             edges: None,
             cut: false,
+            successors: Vec::new(),
         }
     }
 
@@ -163,9 +166,23 @@ impl Shard {
         quota: u64,
         sent: &mut [Vec<u64>],
     ) -> bool {
+        let mut successors = std::mem::take(&mut self.successors);
+        let whole = self.expand_some(explorer, plan, quota, sent, &mut successors);
+        successors.clear();
+        self.successors = successors;
+        whole
+    }
+
+    fn expand_some(
+        &mut self,
+        explorer: &mut Explorer,
+        plan: &Plan,
+        quota: u64,
+        sent: &mut [Vec<u64>],
+        successors: &mut Vec<u64>,
+    ) -> bool {
         let end = self.levels.last().copied().unwrap_or(0).min(self.next + ROUND);
         let words = explorer.words();
-        let mut successors = Vec::new();
         let (mut made, most) = (0, quota.min(BULK / words as u64));
         let workers = sent.len();
         if self.next < end && !self.store.load(self.next..end) {
@@ -178,7 +195,7 @@ impl Shard {
             let state = self.store.state(self.next);
             self.next += 1;
             let direct = workers == 1 && self.lineage.is_none();
-            let out = if direct { &mut sent[0] } else { &mut successors };
+            let out = if direct { &mut sent[0] } else { &mut *successors };
             let begin = out.len();
             let expanded = match &self.reduction {
                 None => explorer.expand(state, out),
