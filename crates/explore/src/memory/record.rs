@@ -3,15 +3,16 @@
 //! In: each walk, and each that did not find all it looked for. Out: two judgements, for two ways to make steps without the
 //! tree. A walk costs a tenth of a compiled step; a step that the machine makes for the tree to learn costs fifty compiled
 //! ones. So the machine alone is better than a tree that misses one state in four, and machine code is better than one that has
-//! learned much and still misses one in sixteen. INVARIANT: a record counts; what is done about it is up to the caller.
+//! learned much and still misses one in sixteen. How long a step takes the machine is measured by how often it looks at a field.
+//! INVARIANT: a record counts; what is done about it is up to the caller.
 
 /// LIMIT: walks of the tree before it is first compared with the machine.
 const TRIAL: u64 = 1 << 14;
 /// The machine wins if more than one walk in so many misses.
 const POOR: u64 = 4;
-/// LIMIT: misses of the tree before it is first compared with machine code. Compiling takes as long as the machine takes for
-/// about so many steps, whatever the size of the program.
-const PATIENCE: u64 = 1 << 11;
+/// LIMIT: how often steps that the tree has learned have looked at a field, before it is first compared with machine code. Compiling takes
+/// about as long as the machine takes to make these steps, whatever the size of the program.
+const PATIENCE: u64 = 1 << 16;
 /// Machine code wins if more than one walk in so many misses, once the tree has learned much.
 const RARELY: u64 = 16;
 
@@ -36,7 +37,9 @@ pub(crate) struct Record {
     against_machine: Count,
     /// Since the tree was last compared with machine code.
     against_code: Count,
-    /// The misses at which that is next done; 0 before the first time.
+    /// How often the steps that it has learned since then have looked at a field.
+    looks: u64,
+    /// The looks at which that is next done; 0 before the first time.
     due: u64,
 }
 
@@ -54,6 +57,11 @@ impl Record {
         self.against_code.misses += 1;
     }
 
+    /// Counts that a step which looks at so many fields is learned.
+    pub fn learn(&mut self, looks: usize) {
+        self.looks += looks as u64;
+    }
+
     /// Whether the machine alone makes steps faster; to be asked after each miss.
     pub fn loses_to_machine(&mut self) -> bool {
         let count = &mut self.against_machine;
@@ -68,12 +76,12 @@ impl Record {
     /// Whether machine code makes steps faster; to be asked after each miss.
     pub fn loses_to_code(&mut self) -> bool {
         let due = self.due.max(PATIENCE);
-        if self.against_code.misses < due {
+        if self.looks < due {
             return false;
         }
         // One in two is tolerated at first, when there is much to learn; later only rarer misses are.
         let loses = self.against_code.misses_one_in((2 * due / PATIENCE).min(RARELY));
-        (self.against_code, self.due) = (Count::default(), due * 2);
+        (self.against_code, self.looks, self.due) = (Count::default(), 0, due * 2);
         loses
     }
 }

@@ -206,6 +206,7 @@ impl Tree {
         if self.given_up {
             return;
         }
+        self.record.learn(events.len());
         let mut answers = answers.iter();
         let mut place = Place::Root;
         for event in events {
