@@ -64,8 +64,12 @@ pub(crate) fn interrupted(events: usize) -> Verdict {
     Verdict::Unknown { events, reason: "the comparison was interrupted".to_string() }
 }
 
-/// All events up to the stop agree. A recording without events says nothing about the program.
+/// All events up to the stop agree. A recording without events says nothing about the program, and one of a run in which a task
+/// failed or hung nothing about what was to come.
 pub(crate) fn conforms(recording: &Recording, events: usize, steps: u64) -> Verdict {
+    if let Some(failure) = &recording.failure {
+        return Verdict::Unknown { events, reason: failure.clone() };
+    }
     match events {
         0 => {
             Verdict::Unknown { events, reason: "nothing was recorded before the tasks were asked to stop".to_string() }

@@ -116,6 +116,8 @@ pub struct Recording {
     pub stopped_ns: Option<i64>,
     /// What the program counted of the bounds of its chart; known once the log is written to its end.
     pub bounds: Vec<Bounded>,
+    /// Why the run ended early, in words, if a task failed or hung; known once the log is written to its end.
+    pub failure: Option<String>,
     /// The log was written to its end.
     pub ended: bool,
     /// All events before this instant have been read.

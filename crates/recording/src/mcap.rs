@@ -288,15 +288,10 @@ impl Reader {
             (None, false) => {}
         }
         self.channels.insert(id, tracks.len());
-        let (rhythm, awaits) = (self.rhythm(task), self.timing.get(&format!("awaits {task}")).cloned());
-        self.recording.tracks.push(Track { task: task.to_string(), rhythm, awaits, ..Track::default() });
+        let mut track = Track { task: task.to_string(), ..Track::default() };
+        time(&self.timing, &mut track)?;
+        self.recording.tracks.push(track);
         Ok(())
-    }
-
-    fn rhythm(&self, task: &str) -> Option<Rhythm> {
-        let number = |what: &str| self.timing.get(&format!("{what} {task}")).and_then(|text| text.parse().ok());
-        let (period_ns, offset_ns) = (number("period_ns").filter(|period| *period > 0)?, number("offset_ns")?);
-        Some(Rhythm { period_ns, offset_ns, deadline_ns: number("deadline_ns")? })
     }
 
     fn about(&mut self, name: &str, values: &BTreeMap<&str, &str>) -> Result<(), Malformed> {
@@ -312,6 +307,10 @@ impl Reader {
                 recording.pace = text("pace").to_string();
                 recording.wait_free = text("wait_free").split_whitespace().map(str::to_string).collect();
                 self.timing = values.iter().map(|(key, value)| (key.to_string(), value.to_string())).collect();
+                // Other tools that copy a recording may put the tasks first.
+                for track in &mut recording.tracks {
+                    time(&self.timing, track)?;
+                }
             }
             // Written before any event of a task that was asked to stop.
             "stop" | "end" => {
@@ -326,6 +325,7 @@ impl Reader {
                 if name == "end" {
                     recording.ended = true;
                     recording.bounds = bounds(values);
+                    recording.failure = failure(values);
                     // The program counts what it lost; what is told of the tasks' numbers does not undo that.
                     let lost = !matches!(text("lost"), "" | "0");
                     for track in &mut recording.tracks {
@@ -391,6 +391,37 @@ impl Reader {
             None => Some(Ok(())),
         }
     }
+}
+
+/// Takes over what the head says of a task: its period, offset and deadline, and the channel whose data wake it.
+fn time(timing: &BTreeMap<String, String>, track: &mut Track) -> Result<(), Malformed> {
+    let of = |what: &str| timing.get(&format!("{what} {}", track.task));
+    let stated = [of("period_ns"), of("offset_ns"), of("deadline_ns")];
+    if stated.iter().any(Option::is_some) {
+        let number = |text: Option<&String>| text.and_then(|text| text.parse::<i64>().ok());
+        let [Some(period_ns @ 1..), Some(offset_ns), Some(deadline_ns)] = stated.map(number) else {
+            return malformed(format!("it does not say the period, offset and deadline of {} in numbers", track.task));
+        };
+        track.rhythm = Some(Rhythm { period_ns, offset_ns, deadline_ns });
+    }
+    track.awaits = of("awaits").cloned();
+    Ok(())
+}
+
+/// Why the run ended early, if it did, as its end says.
+fn failure(end: &BTreeMap<&str, &str>) -> Option<String> {
+    let text = |key: &str| end.get(key).copied().unwrap_or_default();
+    let how = match text("outcome") {
+        "ended" => return None,
+        "hung" => "hung",
+        "faulted" => "failed",
+        _ => return Some("the recording does not say that the run ended well".to_string()),
+    };
+    let reason = match text("reason") {
+        "" => String::new(),
+        reason => format!(": {reason}"),
+    };
+    Some(format!("task {} {how} in cycle {}{reason}", text("task"), text("cycle")))
 }
 
 #[cfg(test)]

@@ -73,6 +73,14 @@ fn neighbours(recording: &Recording, first: Kind, second: Kind) -> (usize, usize
 }
 
 #[test]
+fn a_run_that_ended_early_is_not_known() {
+    let mut bench = Bench::new();
+    let all = bench.good.events();
+    let agreed = bench.is_not_known(|recording| recording.failure = Some("task a hung in cycle 3".to_string()));
+    assert!(0 < agreed && agreed <= all);
+}
+
+#[test]
 fn neighbours_of_a_step_have_their_order() {
     use Kind::{Begins, Ends, Enters, Reads, Releases, Swaps, Writes};
     let mut bench = Bench::new();

@@ -159,6 +159,42 @@ fn what_the_program_lost_is_lost() {
 }
 
 #[test]
+fn a_run_that_ended_early_says_why() {
+    let check = |more: &[(&str, &str)], expect: Option<&str>| {
+        let end = about("end", &[&[("stopped_ns", "7"), ("events task", "1")], more].concat());
+        let read = Recording::read(&ended([head(), channel(1, "/task"), event(1, 0, 5), end].concat()));
+        assert_eq!(read.expect("it can be read").failure.as_deref(), expect);
+    };
+    check(&[("outcome", "ended")], None);
+    let told = [("outcome", "hung"), ("task", "task"), ("cycle", "98"), ("reason", "no progress for 200 ms")];
+    check(&told, Some("task task hung in cycle 98: no progress for 200 ms"));
+    check(&[("outcome", "faulted"), ("task", "task"), ("cycle", "3")], Some("task task failed in cycle 3"));
+    for outcome in [&[][..], &[("outcome", "fine")]] {
+        check(outcome, Some("the recording does not say that the run ended well"));
+    }
+}
+
+#[test]
+fn the_head_speaks_of_tasks_before_it_and_behind_it() {
+    let stated = [("tick_ns", "1000"), ("pace", "real"), ("awaits other", "frames")];
+    let times = [("period_ns task", "7000"), ("offset_ns task", "0"), ("deadline_ns task", "5000")];
+    let head = about("groundstate", &[&stated[..], &times].concat());
+    let before = Recording::read(&[MAGIC, &head, &channel(0, "/task"), &channel(1, "/other")].concat());
+    let behind = Recording::read(&[MAGIC, &channel(0, "/task"), &channel(1, "/other"), &head].concat());
+    let read = before.expect("a recording");
+    assert_eq!(behind, Ok(read.clone()));
+    let rhythm = Rhythm { period_ns: 7000, offset_ns: 0, deadline_ns: 5000 };
+    assert_eq!((read.tracks[0].rhythm, read.tracks[1].awaits.as_deref()), (Some(rhythm), Some("frames")));
+    let said = "it does not say the period, offset and deadline of task in numbers";
+    for wrong in
+        [&times[..1], &[times[0], times[1], ("deadline_ns task", "x")], &[("period_ns task", "0"), times[1], times[2]]]
+    {
+        let head = about("groundstate", &[&stated[..], wrong].concat());
+        refused(&[MAGIC, &head, &channel(0, "/task")].concat(), said);
+    }
+}
+
+#[test]
 fn time_goes_on_from_the_beginning() {
     let check = |times: [i64; 2], expect: &str| {
         let events = [event(0, 0, times[0]), event(0, 1, times[1])].concat();
