@@ -330,3 +330,24 @@ fn inputs_come_from_a_file_what_is_set_comes_first_and_the_rest_is_asked_for() {
     let Waits::Input { values, bounds, .. } = session.waits() else { panic!("{:?}", session.waits()) };
     assert_eq!((values.len(), *bounds), (100, Some((-10, 200))));
 }
+
+/// The last of two values would win, and the file have no say in it.
+#[test]
+fn a_file_gives_a_value_once() {
+    let loaded = load(SourceFile::new("Gauge.asm", GAUGE), &mut NoFiles).expect("it has no errors");
+    let refused = |form, text: &str| {
+        let read = inputs::named(&loaded.program, form, syntax::FileId(0), text);
+        read.expect_err(text).into_iter().map(|fault| fault.message).collect::<Vec<_>>().join("\n")
+    };
+    let yaml = |text: &str| refused(inputs::Form::Yaml, text);
+    let csv = |text: &str| refused(inputs::Form::Csv, text);
+    let twice = "`tap` is given twice for the same steps";
+    assert_eq!(yaml("always: { tap: true, tap: false }"), twice);
+    assert_eq!(yaml("1: { tap: true }\n2: { tap: false }\n1: { tap: true }"), twice);
+    assert_eq!(csv("tap,tap\ntrue,false"), twice);
+    assert_eq!(csv("step,tap\n1,true\n1,false"), twice);
+    assert_eq!(csv("step,location,value\n1,tap,true\n1,tap,false"), twice);
+    assert_eq!(yaml("random: { tap: 1 %, tap: 2 % }"), "how often `tap` comes is given twice");
+    let other = "1: { tap: true }\n1..2: { tap: false }\n1: { level: 3 }";
+    assert!(inputs::named(&loaded.program, inputs::Form::Yaml, syntax::FileId(0), other).is_ok());
+}

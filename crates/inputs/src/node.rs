@@ -54,10 +54,17 @@ pub fn read(file: FileId, source: &str, id: &'static str) -> Result<Node, Box<Di
                 let span = yaml.span(mark);
                 return Ok(Node { span, shape: Shape::Text(Scalar::new(String::new(), ScalarStyle::Plain, span, "")) });
             }
-            (event, mark) => return yaml.node(event, mark),
+            (event, mark) => {
+                let node = yaml.node(event, mark)?;
+                yaml.end()?;
+                return Ok(node);
+            }
         }
     }
 }
+
+/// What stands behind a document would be left out without a word.
+pub(crate) const SECOND: &str = "a second document begins here; a file has one";
 
 struct Yaml<'a> {
     parser: Parser<'a, StrInput<'a>>,
@@ -86,6 +93,17 @@ impl<'a> Yaml<'a> {
             Some(Ok(event)) => Ok(event),
             Some(Err(error)) => Err(self.no_yaml(&error)),
             None => Err(self.fault(Span { file: self.file, start: 0, end: 0 }, "the file ends too early")),
+        }
+    }
+
+    /// Nothing but the end of the file follows a document.
+    fn end(&mut self) -> Result<(), Box<Diagnostic>> {
+        loop {
+            match self.next()? {
+                (Event::StreamEnd, _) => return Ok(()),
+                (Event::DocumentEnd, _) => {}
+                (_, mark) => return Err(self.fault(self.span(mark), SECOND)),
+            }
         }
     }
 

@@ -16,16 +16,20 @@ use saphyr_parser::{Event, Parser, ScanError, Span as Mark};
 use simulate::{Given, Often, Steps, Weighing, Written};
 use syntax::{Diagnostic, FileId, Span};
 
+use crate::node::SECOND;
 use crate::{Contents, Read, fault, steps, whole};
 
 /// Reads a document.
 pub fn read(file: FileId, source: &str) -> Read<Contents> {
     let mut yaml = Yaml { parser: Parser::new_from_str(source), place: Places::new(file, source), depth: 0 };
     let mut contents = Contents::default();
+    let mut documents = 0;
     loop {
         let (event, mark) = yaml.next()?;
         match event {
-            Event::StreamStart | Event::DocumentStart(_) | Event::DocumentEnd => {}
+            Event::DocumentStart(_) if documents > 0 => return Err(fault(yaml.place.span(mark), SECOND)),
+            Event::DocumentStart(_) => documents += 1,
+            Event::StreamStart | Event::DocumentEnd => {}
             Event::StreamEnd => return Ok(contents),
             Event::MappingStart(..) => yaml.document(&mut contents)?,
             // An empty document is one empty scalar.
@@ -291,6 +295,8 @@ mod tests {
     fn trouble() {
         check("- 1", &[EXPECTED]);
         check("", &[]);
+        check("1: {a: x}\n---\n1: {a: y}", &[SECOND]);
+        check("---\n---\n1: {a: y}", &[SECOND]);
         check("1: {a: 'x", &["this is not YAML: while scanning a quoted scalar, found unexpected end of stream"]);
     }
 }

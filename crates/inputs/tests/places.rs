@@ -35,3 +35,14 @@ fn walk(source: &str, node: &Node) -> usize {
         }
     }
 }
+
+/// What stands behind a second mark would be read by nobody.
+#[test]
+fn a_file_has_one_document() {
+    for more in ["---\ninvariants:\n  - n < 2\n", "---\n", "...\n---\n- 1\n"] {
+        let source = format!("---\ninvariants:\n  - n < 5\n{more}");
+        let fault = read(FileId(0), &source, "id").expect_err(&source);
+        assert_eq!(fault.message, "a second document begins here; a file has one");
+    }
+    assert!(read(FileId(0), "---\ninvariants: [n < 5]\n...\n", "id").is_ok());
+}

@@ -5,7 +5,7 @@
 //! given for a range of steps holds only there, and wins over the first kind. Of two values for the same range, the
 //! later wins.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use machine::{Location, Value};
 use program::{FunctionKind, Program};
@@ -17,7 +17,7 @@ use crate::read::{Written, read_written};
 use crate::weighted::{Misfit, Misplaced, Often, Weighted};
 
 /// The steps for which a value is given; steps count from 1.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Steps {
     /// From this step on, until another value is given.
     From(u64),
@@ -111,6 +111,7 @@ impl Named {
         let mut problems = Vec::new();
         // Columns of a table repeat a location on every row: each text is read once.
         let mut locations: BTreeMap<&str, Result<Location, String>> = BTreeMap::new();
+        let mut met = BTreeSet::new();
         for Given { steps, location: (text, place), value: (written, value_place) } in given {
             let location = locations.entry(text).or_insert_with(|| read_input(program, text));
             let location = match location {
@@ -124,12 +125,21 @@ impl Named {
                 }
             };
             let function = program.function(location.function);
+            if !met.insert((location.clone(), *steps)) {
+                let message = format!("`{text}` is given twice for the same steps");
+                problems.push(Problem { span: *value_place, message, value: true });
+            }
             match read_written(program, function.codomain, written) {
                 Err(message) => problems.push(Problem { span: *value_place, message, value: true }),
                 Ok(value) => named.add(location, *steps, value, function.kind == FunctionKind::Shared),
             }
         }
+        let mut weighed = BTreeSet::new();
         for Weighing { location: (location, place), often: (often, whole), values } in weighings {
+            if !weighed.insert(location.trim()) {
+                let message = format!("how often `{location}` comes is given twice");
+                problems.push(Problem { span: *whole, message, value: true });
+            }
             if let Err(Misfit { message, place: about }) = named.weighted.set(program, location, often) {
                 let (span, value) = match about {
                     Misplaced::Location => (*place, false),
