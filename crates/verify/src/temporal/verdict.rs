@@ -61,13 +61,14 @@ pub fn decide_ltl(
 
 fn verdict(checker: &Checker<'_>, violation: impl FnOnce() -> Result<Option<(Run, bool)>, Spent>) -> FormulaVerdict {
     let graph = checker.graph();
+    let fair = &checker.fair().must;
+    if graph.is_complete() && !graph.initial().iter().any(|state| fair.contains(*state)) {
+        return FormulaVerdict::Holds { vacuous: true };
+    }
     match violation() {
         Err(ended) => FormulaVerdict::Spent(ended),
         Ok(Some((run, whole))) => FormulaVerdict::Violated { run, whole },
         Ok(None) if !graph.is_complete() => FormulaVerdict::Unexplored,
-        Ok(None) => {
-            let fair = &checker.fair().must;
-            FormulaVerdict::Holds { vacuous: !graph.initial().iter().any(|state| fair.contains(*state)) }
-        }
+        Ok(None) => FormulaVerdict::Holds { vacuous: false },
     }
 }
