@@ -152,7 +152,7 @@ impl Bench {
         }
         bench.link(workspace, interrupt, say, &mut made);
         if bench.wanted.test {
-            bench.play(workspace, interrupt, say);
+            bench.play(workspace, interrupt, say, &mut made);
         }
         bench.collect_charts(workspace, &mut made);
         bench.candidates = made.into_values().collect();
@@ -435,8 +435,15 @@ impl Bench {
         }
     }
 
-    /// Runs the scenarios that run a text to be mutated, and keeps those that pass.
-    fn play<F: Files>(&mut self, workspace: &mut Workspace<F>, interrupt: &Interrupt, say: &mut dyn FnMut(&str)) {
+    /// Runs the scenarios that run a text to be mutated, and keeps those that pass. Makes the mutants of such a text where no
+    /// model judges it.
+    fn play<F: Files>(
+        &mut self,
+        workspace: &mut Workspace<F>,
+        interrupt: &Interrupt,
+        say: &mut dyn FnMut(&str),
+        made: &mut Made,
+    ) {
         let mut suite = Suite::new();
         for path in self.wanted.scenarios.clone() {
             if interrupt.is_raised() {
@@ -463,6 +470,12 @@ impl Bench {
             };
             match (concerned, tested.passed()) {
                 (true, true) => {
+                    let unjudged = |text: &&String| !self.judges.iter().any(|judge| judge.files.contains(*text));
+                    for text in files.iter().filter(|text| self.is_mutated(text)).filter(unjudged) {
+                        if let Ok(loaded) = workspace.load(text) {
+                            self.collect(&loaded, None, made);
+                        }
+                    }
                     let print = format!("{path} {}", fingerprint(&tested.sources));
                     self.plays.push(Play { path, files, print });
                 }

@@ -112,6 +112,10 @@ fn summary(shell: &mut Shell, mutated: &Mutated, score: &Score, sampled: bool) -
     let drawn = bench.candidates.len();
     let of = if sampled && drawn < bench.mutants { format!("{drawn} of {}", bench.mutants) } else { drawn.to_string() };
     let word = if drawn == 1 && !of.contains(' ') { "mutant" } else { "mutants" };
+    if drawn == 0 {
+        writeln!(shell.out(), "no mutants: {judges} had nothing to judge")?;
+        return Ok(());
+    }
     writeln!(shell.out(), "{of} {word}, judged by {judges}")?;
     let by = format!("{} by properties, {} by scenarios{refined}", score.by_verify, score.by_test);
     let mut parts = vec![format!("{} killed ({by})", score.killed())];
