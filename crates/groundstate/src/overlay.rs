@@ -117,7 +117,7 @@ impl Overlay {
             faults.iter_mut().for_each(|fault| model::missing_operator(fault, kind));
             faults
         })?;
-        let span = self.program.term_span(formula.body);
+        let span = said.scalar.map_or_else(|| self.program.term_span(formula.body), Scalar::span);
         let reads_monitored = self.program.reads_monitored(&formula);
         let name = said.text.trim().to_string();
         let property = Property { kind, name, formula, conclusion: None, reads_monitored, span };
