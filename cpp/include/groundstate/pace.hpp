@@ -12,8 +12,8 @@
 //
 // Locks come last, since a task that hands something over may begin its next cycle, and ask, in the same step.
 //
-// With `Pace::drawn` each phase lasts a part of its modelled time, drawn from a seed, or occasionally far longer; locks
-// take no time. It is for trying other orders of events. INVARIANT: the program sees nothing of this but the passing of
+// With `Pace::drawn` each phase lasts a part of its modelled time, drawn from a seed, or occasionally far longer; an elaboration of
+// an interval lasts no less than its shortest time. Locks take no time. It is for trying other orders of events. INVARIANT: the program sees nothing of this but the passing of
 // time.
 #pragma once
 
@@ -50,7 +50,7 @@ class TaskPace {
     void rest() noexcept {}
     void begin_cycle(bool) noexcept {}
     void end_cycle() noexcept {}
-    void spend(std::int64_t) noexcept {}
+    void spend(std::int64_t, std::int64_t = 0) noexcept {}
 };
 
 /// In virtual time. One task's; its thread alone calls.
@@ -96,14 +96,16 @@ class TaskPace<VirtualClock> {
     }
     void end_cycle() noexcept { ended_ = step(); }
 
-    /// A phase, or an access, lasts this many ticks, but at least a step.
-    void spend(std::int64_t ticks) noexcept {
+    /// A phase, or an access, lasts this many ticks, but at least a step; where time is drawn, `least` ticks at the least.
+    void spend(std::int64_t ticks, std::int64_t least = 0) noexcept {
         if (is_modelled()) {
             clock_.sleep_until_ns((step() + std::max<std::int64_t>(ticks, 1)) * pacing_.tick_ns);
         } else {
             const int times = pacing_.overrun > 1 && drawn() % 16 == 0 ? pacing_.overrun : 1;
-            const std::int64_t most_ns = std::max<std::int64_t>(ticks, 1) * pacing_.tick_ns * times;
-            clock_.sleep_until_ns(clock_.now_ns() + static_cast<std::int64_t>(drawn() % static_cast<std::uint64_t>(most_ns)));
+            const std::int64_t least_ns = least * pacing_.tick_ns;
+            const std::int64_t more_ns = std::max<std::int64_t>(ticks, 1) * pacing_.tick_ns * times - least_ns;
+            const auto part = static_cast<std::int64_t>(drawn() % static_cast<std::uint64_t>(std::max<std::int64_t>(more_ns, 1)));
+            clock_.sleep_until_ns(clock_.now_ns() + least_ns + part);
         }
     }
 

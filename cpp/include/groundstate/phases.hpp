@@ -20,10 +20,11 @@
 
 namespace groundstate {
 
-/// A phase of the plan: its number among the names, and how many ticks it takes.
+/// A phase of the plan: its number among the names, how many ticks it takes, and the fewest, if the chart says that it may take fewer.
 struct Phase {
     std::uint16_t number = 0;
     std::int64_t ticks = 1;
+    std::int64_t least = 0;
 };
 
 /// A message as a queue holds it.
@@ -55,7 +56,7 @@ class Phases {
         const std::int64_t begun_ns = begin(phase);
         const bool ready = step();
         task_.progress(phase.number);
-        task_.pace.spend(phase.ticks);
+        task_.pace.spend(phase.ticks, phase.least);
         task_.elaborated(phase.number, task_.instant_ns() - begun_ns);
         end(phase);
         return ready;
@@ -65,7 +66,7 @@ class Phases {
     template <class Step>
     bool decide(Phase phase, Step&& step) {
         const std::int64_t begun_ns = begin(phase);
-        task_.pace.spend(phase.ticks);
+        task_.pace.spend(phase.ticks, phase.least);
         const bool ready = step();
         task_.progress(phase.number);
         task_.elaborated(phase.number, task_.instant_ns() - begun_ns);

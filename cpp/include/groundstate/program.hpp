@@ -1,7 +1,7 @@
 // The command line of a generated program: how long, in which time, with which log; the statistics; the exit status.
 //
 //     robot --virtual 10 --log run.mcap          ten seconds of virtual time, tick by tick as the model
-//     robot --virtual 10 --seed 7                each phase lasts a part of its time, drawn from the seed
+//     robot --virtual 10 --seed 7                each phase lasts a part of its time, or a time of its interval, drawn from the seed
 //     robot --real 3 --realtime 20               three seconds in real time, SCHED_FIFO from priority 20 on
 //     robot --patience 2                         a task hangs if it makes no progress for 2 s (virtual time: 10, real: 0.5)
 //
@@ -33,12 +33,13 @@ inline constexpr const char* program_help =
     "Runs the tasks of the system, for a second of virtual time unless said otherwise, and tells what they did.\n\n"
     "  --virtual SECONDS    in virtual time, tick by tick as the model\n"
     "  --real SECONDS       in real time\n"
-    "  --seed N             each phase lasts a part of its time, drawn from the seed\n"
+    "  --seed N             each phase lasts a part of its time, or a time of its interval, drawn from the seed\n"
     "  --realtime PRIORITY  SCHED_FIFO from this priority on, 1 to 90\n"
     "  --patience SECONDS   a task hangs if it makes no progress for so long (virtual time: 10, real time: 0.5)\n"
     "  --log FILE           write the events, for `groundstate conform`\n"
     "  --help               this text\n\n"
-    "Exit status: 0 the run came to its end; 1 a task failed or hung; 2 wrong usage.\n";
+    "Exit status: 0 the run came to its end; 1 a task failed or hung; 2 wrong usage; 3 the run came to its end, but data were not valid\n"
+    "or events are missing in the log.\n";
 
 inline CommandLine read_command_line(int count, char** words) {
     CommandLine line;

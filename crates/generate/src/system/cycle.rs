@@ -22,7 +22,8 @@ pub(super) fn cycle(text: &mut String, system: &System, index: usize, form: &For
     }
     let writes = |from: usize| component.phases[from..].iter().any(|phase| matches!(phase.action, Action::Write(_)));
     for (at, phase) in component.phases.iter().enumerate() {
-        let number = format!("{{{}, {}}}", numbers.phases[index] + at, phase.time);
+        let least = if phase.least < phase.time { format!(", {}", phase.least) } else { String::new() };
+        let number = format!("{{{}, {}{least}}}", numbers.phases[index] + at, phase.time);
         match phase.action {
             Action::Elaborate(_) => {
                 let assigned = if writes(at) { "ready = " } else { "" };
