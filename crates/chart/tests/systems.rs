@@ -257,6 +257,27 @@ fn a_cycle_of_one_phase_may_not_take_the_whole_period() {
     assert_eq!(cell("period 10 ms offset 10 ms", "1 ms"), [""; 0]);
 }
 
+/// No time is read as another one.
+#[test]
+fn times_are_whole_and_shorter_than_a_day() {
+    let cell = |tick: &str, period: &str, phase: &str| {
+        told(&format!(
+            "chart Cell system cell tick {tick} component a synchronous period {period} elaborate x {phase} endcomponent endsystem"
+        ))
+    };
+    let long = "time-unit: this is longer than a day";
+    assert_eq!(cell("1 ms", "86400 s", "1 ms"), [""; 0]);
+    assert_eq!(cell("1 ms", "9999999999 s", "1 ms"), [long]);
+    assert_eq!(cell("1 ms", "10 s", "9999999999999999 s"), [long]);
+    assert_eq!(cell("1 ms", "10 s", "1..9999999999999999 s"), [long]);
+    assert_eq!(cell("99999999 s", "10 s", "1 s"), [long]);
+    let fine = "time-unit: this is not a whole number of nanoseconds";
+    assert_eq!(cell("1.5 ns", "10 ns", "1 ns"), [fine]);
+    assert_eq!(cell("1 ns", "0.0000001 ms", "1 ns"), [fine]);
+    assert_eq!(cell("0.3 ms", "0.9 ms", "0.3 ms"), [""; 0]);
+    assert_eq!(cell("0 ms", "10 ms", "1 ms"), ["time-unit: a tick takes at least a nanosecond"]);
+}
+
 #[test]
 fn a_jitter_is_at_least_a_tick_and_at_most_a_period() {
     let cell = |kind: &str, phase: &str| {

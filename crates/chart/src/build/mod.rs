@@ -99,6 +99,10 @@ pub fn unverified(chart: &Chart, known: &Known) -> Vec<syntax::Diagnostic> {
         let help = "build the model with `groundstate chart build`, and verify that";
         return vec![fault::not_verified(span, "the chart has no system", "a system is verified as it is drawn", help)];
     };
+    if system.components.is_empty() {
+        let help = "add a `component` with its phases";
+        return vec![fault::not_verified(system.span, "the system has no components", "nothing happens in it", help)];
+    }
     let unbuilt = unbuilt(chart, known);
     if unbuilt.is_empty() && library(chart).is_none() {
         let here = "the patterns come with another module, which may have changed them";

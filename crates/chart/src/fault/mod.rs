@@ -401,6 +401,27 @@ pub(crate) fn no_whole_ticks(span: Span) -> Diagnostic {
         .with_help("write another time, or a shorter `tick`")
 }
 
+/// Ticks without a length.
+pub(crate) fn no_tick(span: Span) -> Diagnostic {
+    Diagnostic::error("time-unit", span, "a tick takes at least a nanosecond")
+        .here("each step of the model takes one tick")
+        .with_help("write a longer time; without `tick` it is 1 ms")
+}
+
+/// A time longer than a day.
+pub(crate) fn long_time(span: Span) -> Diagnostic {
+    Diagnostic::error("time-unit", span, "this is longer than a day")
+        .here("times are counted in nanoseconds, up to 86400 s")
+        .with_help("write a shorter time")
+}
+
+/// A time with a part of a nanosecond.
+pub(crate) fn fine_time(span: Span) -> Diagnostic {
+    Diagnostic::error("time-unit", span, "this is not a whole number of nanoseconds")
+        .here("no time is finer than a nanosecond")
+        .with_help("write a longer time, or another unit")
+}
+
 /// A chart that has nothing to verify, or whose patterns cannot be told.
 pub(crate) fn not_verified(span: Span, message: &str, here: &str, help: &str) -> Diagnostic {
     Diagnostic::error("not-verified", span, message).here(here).with_help(help)

@@ -19,6 +19,9 @@ use crate::{fault, times, ways};
 /// The default length of a step: a millisecond.
 const TICK_NS: u64 = 1_000_000;
 
+/// LIMIT: the longest time of a chart, in nanoseconds.
+const DAY_NS: f64 = 86_400e9;
+
 /// LIMIT: the most cycles among which missed deadlines are counted.
 const WINDOW: u64 = 1_000;
 
@@ -28,7 +31,14 @@ impl Reader {
         let mut ticks = node.ticks();
         let first = ticks.next();
         let tick = first.as_ref().and_then(ast::Tick::quantity);
-        let tick_ns = tick.and_then(|quantity| self.nanoseconds(&quantity)).filter(|tick| *tick > 0).unwrap_or(TICK_NS);
+        let tick_ns = match tick.as_ref().map(|quantity| (quantity, self.nanoseconds(quantity))) {
+            Some((quantity, Some(0))) => {
+                self.faults.push(fault::no_tick(Span::new(self.file, quantity.range())));
+                TICK_NS
+            }
+            Some((_, Some(tick_ns))) => tick_ns,
+            Some((_, None)) | None => TICK_NS,
+        };
         for second in ticks {
             let place = |tick: &ast::Tick| Span::new(self.file, tick.range());
             let first = first.as_ref().map_or_else(|| self.span(&name), place);
@@ -198,10 +208,19 @@ impl Reader {
             self.faults.push(fault::unknown_unit(self.span(&unit), unit.text()));
             return None;
         };
-        let value: f64 = number.text().parse().ok()?;
-        let nanoseconds = (value * scale as f64).round();
-        // Periods longer than a day are not accepted.
-        (nanoseconds <= 86_400e9).then_some(nanoseconds as u64)
+        let exact = number.text().parse::<f64>().ok()? * scale as f64;
+        let nanoseconds = exact.round();
+        let place = Span::new(self.file, quantity.range());
+        if nanoseconds > DAY_NS {
+            self.faults.push(fault::long_time(place));
+            return None;
+        }
+        // Numbers such as 0.3 have no exact binary form.
+        if (exact - nanoseconds).abs() > 1e-9 + exact * 2.0 * f64::EPSILON {
+            self.faults.push(fault::fine_time(place));
+            return None;
+        }
+        Some(nanoseconds as u64)
     }
 
     /// A length of time in ticks.
@@ -225,13 +244,14 @@ impl Reader {
     /// The shortest and the longest duration of a phase.
     fn durations(&mut self, phase: &ast::Phase, tick_ns: u64) -> (u64, u64) {
         let Some(quantity) = phase.time() else { return (1, 1) };
+        let faults = self.faults.len();
         let least = self.ticks(&quantity, tick_ns);
         let Some(most) = quantity.most() else { return (least, least) };
         let most = self.ticks_of(&quantity, &most, tick_ns);
         let span = Span::new(self.file, quantity.range());
         if phase.kind() != Some(PhaseKind::Elaborate) {
             self.faults.push(fault::fixed_access(span));
-        } else if most < least {
+        } else if most < least && self.faults.len() == faults {
             self.faults.push(fault::empty_interval(span));
         }
         (least, most)
