@@ -10,9 +10,13 @@
 const TRIAL: u64 = 1 << 14;
 /// The machine wins if more than one walk in so many misses.
 const POOR: u64 = 4;
-/// LIMIT: how often steps that the tree has learned have looked at a field, before it is first compared with machine code. Compiling takes
-/// about as long as the machine takes to make these steps, whatever the size of the program.
-const PATIENCE: u64 = 1 << 16;
+/// LIMIT: misses of the tree before it is compared with machine code. Compiling takes no longer than the machine takes for so many steps.
+const PATIENCE: u64 = 1 << 11;
+/// LIMIT: how often steps that the tree has learned have looked at a field, before machine code wins if hardly any walk found anything.
+/// Compiling takes about as long as the machine takes for these steps, whatever the size of the program.
+const LOOKS: u64 = 1 << 16;
+/// Hardly any: one in so many.
+const HARDLY: u64 = 16;
 /// Machine code wins if more than one walk in so many misses, once the tree has learned much.
 const RARELY: u64 = 16;
 
@@ -37,10 +41,12 @@ pub(crate) struct Record {
     against_machine: Count,
     /// Since the tree was last compared with machine code.
     against_code: Count,
-    /// How often the steps that it has learned since then have looked at a field.
-    looks: u64,
-    /// The looks at which that is next done; 0 before the first time.
+    /// The misses at which that is next done; 0 before the first time.
     due: u64,
+    /// How often the steps that it has learned have looked at a field.
+    looks: u64,
+    /// It was asked whether hardly any walk has found anything.
+    doubted: bool,
 }
 
 impl Record {
@@ -75,13 +81,19 @@ impl Record {
 
     /// Whether machine code makes steps faster; to be asked after each miss.
     pub fn loses_to_code(&mut self) -> bool {
+        if self.looks >= LOOKS && !std::mem::replace(&mut self.doubted, true) {
+            let Count { walks, misses } = self.against_code;
+            if (walks - misses) * HARDLY <= walks {
+                return true;
+            }
+        }
         let due = self.due.max(PATIENCE);
-        if self.looks < due {
+        if self.against_code.misses < due {
             return false;
         }
         // One in two is tolerated at first, when there is much to learn; later only rarer misses are.
         let loses = self.against_code.misses_one_in((2 * due / PATIENCE).min(RARELY));
-        (self.against_code, self.looks, self.due) = (Count::default(), 0, due * 2);
+        (self.against_code, self.due) = (Count::default(), due * 2);
         loses
     }
 }
