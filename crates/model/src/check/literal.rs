@@ -2,6 +2,9 @@
 //!
 //! In: a literal token. Out: the constant, or a reported fault. Escapes are decoded here and nowhere else.
 
+use std::iter::Peekable;
+use std::str::Chars;
+
 use syntax::ast;
 use syntax::{Span, SyntaxKind, SyntaxToken};
 
@@ -86,7 +89,7 @@ fn inner(text: &str, quote: char) -> &str {
     text.strip_suffix(quote).unwrap_or(text)
 }
 
-/// Decodes `\n`, `\t`, … and one to three octal digits.
+/// Decodes `\n`, `\t`, …, one to three octal digits, and `\uXXXX`: a unit of UTF-16, of which two may make a character.
 fn unescape(text: &str) -> String {
     let mut value = String::with_capacity(text.len());
     let mut letters = text.chars().peekable();
@@ -111,11 +114,36 @@ fn unescape(text: &str) -> String {
                 }
                 value.push(char::from_u32(code).unwrap_or('\u{fffd}'));
             }
+            Some('u') => {
+                let mut units = vec![hexadecimal(&mut letters)];
+                let is_high = (0xd800..0xdc00).contains(&units[0]);
+                let mut ahead = letters.clone();
+                if is_high && ahead.next() == Some('\\') && ahead.next() == Some('u') {
+                    units.push(hexadecimal(&mut ahead));
+                    if (0xdc00..0xe000).contains(&units[1]) {
+                        letters = ahead;
+                    } else {
+                        units.pop();
+                    }
+                }
+                value.push_str(&String::from_utf16_lossy(&units));
+            }
             Some(other) => value.push(other),
             None => value.push('\\'),
         }
     }
     value
+}
+
+/// The number of four hexadecimal digits, as the lexer has found them.
+fn hexadecimal(letters: &mut Peekable<Chars<'_>>) -> u16 {
+    let mut number = 0;
+    for _ in 0..4 {
+        let Some(digit) = letters.peek().and_then(|letter| letter.to_digit(16)) else { break };
+        number = number * 16 + digit as u16;
+        letters.next();
+    }
+    number
 }
 
 #[cfg(test)]
@@ -126,5 +154,8 @@ mod tests {
     fn escapes() {
         assert_eq!(unescape(r#"a\tb\\\"\101\7"#), "a\tb\\\"A\u{7}");
         assert_eq!(unescape(r"\400"), " 0");
+        assert_eq!(unescape(r"\u00e9\u0041b"), "\u{e9}Ab");
+        assert_eq!(unescape(r"\ud83d\ude00!"), "\u{1f600}!");
+        assert_eq!(unescape(r"\ud83d\u0041"), "\u{fffd}A");
     }
 }

@@ -266,7 +266,8 @@ impl<'t> Lexer<'t> {
         while let Some((at, letter)) = letters.next() {
             if letter == '\\'
                 && let Some((next, escaped)) = letters.next()
-                && !matches!(escaped, 'n' | 't' | 'b' | 'r' | 'f' | '\\' | '\'' | '"' | 'u' | '0'..='7')
+                && !matches!(escaped, 'n' | 't' | 'b' | 'r' | 'f' | '\\' | '\'' | '"' | '0'..='7')
+                && !(escaped == 'u' && is_hexadecimal(text, next + 1))
             {
                 let span = self.span(start + at, start + next + escaped.len_utf8());
                 self.fault(fault::unknown_escape(span, escaped));
@@ -288,4 +289,8 @@ impl<'t> Lexer<'t> {
     fn push(&mut self, kind: SyntaxKind, start: usize) {
         self.tokens.push(Token { kind, start: start as u32 });
     }
+}
+/// Whether four hexadecimal digits stand there.
+fn is_hexadecimal(text: &str, at: usize) -> bool {
+    text.as_bytes().get(at..at + 4).is_some_and(|digits| digits.iter().all(u8::is_ascii_hexdigit))
 }
