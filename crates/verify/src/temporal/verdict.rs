@@ -62,8 +62,12 @@ pub fn decide_ltl(
 fn verdict(checker: &Checker<'_>, violation: impl FnOnce() -> Result<Option<(Run, bool)>, Spent>) -> FormulaVerdict {
     let graph = checker.graph();
     let fair = &checker.fair().must;
-    if graph.is_complete() && !graph.initial().iter().any(|state| fair.contains(*state)) {
-        return FormulaVerdict::Holds { vacuous: true };
+    if !graph.initial().iter().any(|state| fair.contains(*state)) {
+        // No run is fair, as far as is known.
+        return match graph.is_complete() {
+            true => FormulaVerdict::Holds { vacuous: true },
+            false => FormulaVerdict::Unexplored,
+        };
     }
     match violation() {
         Err(ended) => FormulaVerdict::Spent(ended),
