@@ -166,7 +166,10 @@ fn line(shell: &Shell, path: &Path, tested: &Tested, passed: bool) -> String {
         Some(verdict) => {
             let (held, broken) = verdict.checks;
             let steps = plural(verdict.steps as usize, "step");
-            let checks = plural((held + broken) as usize, "check");
+            let checks = match held + broken {
+                0 => "nothing checked".to_string(),
+                checks => plural(checks as usize, "check"),
+            };
             let expected = match verdict.judgement {
                 Judgement::FailedAsExpected(_) => ", failed as expected",
                 _ => "",

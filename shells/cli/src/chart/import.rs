@@ -4,6 +4,7 @@ use std::io::Write;
 use std::path::PathBuf;
 
 use clap::Args;
+use groundstate::has_errors;
 use syntax::{SourceFile, Sources};
 
 use crate::exit::Exit;
@@ -31,6 +32,12 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     let imported = chart::import::scxml(file, &text, &name);
     shell.diagnostics(&sources, &imported.diagnostics)?;
     let Some(text) = imported.text else { return Ok(Exit::Model) };
+    // SCXML says more than a chart does: what no chart can be is not written.
+    let read = chart::load(SourceFile::new(format!("{name}.chart"), text.as_str()), &mut shell.disk());
+    if has_errors(&read.diagnostics) {
+        shell.diagnostics(&read.sources, &read.diagnostics)?;
+        return Ok(Exit::Model);
+    }
     match &arguments.output {
         None => shell.out().write_all(text.as_bytes())?,
         Some(path) => {
