@@ -155,11 +155,13 @@ bench: ## steps per second and peak memory; with CORPUS=path also of the public 
 bench-cpp: ## what it costs to hand data over in C++, and to draw a simulated frame
 	sh cpp/bench/run.sh
 
-corpus: ## make corpus CORPUS=path: compare with recorded results of the public corpus, count charts, hold generated code to it
+corpus: $(GROUNDSTATE) ## make corpus CORPUS=path: compare with recorded results of the public corpus, count charts, hold generated code to it, decide its refinements
 	@mkdir -p out/corpus
 	$(CARGO) xtask corpus $(CORPUS) --scripts out/corpus/scripts
 	$(CARGO) run --locked --profile quick --package generate --example folder -- $(CORPUS) \
 	    --scripts out/corpus/scripts --log out/corpus/generated.log $(if $(EVERY),--every $(EVERY))
+	sh cpp/install.sh z3 cvc5
+	sh library/refinement/public/refine.sh $(GROUNDSTATE) $(CORPUS)
 
 update: ## rewrite all golden expectations
 	UPDATE_EXPECT=1 SNAPSHOTS=overwrite TRYCMD=overwrite $(LINTED) $(CARGO) test --workspace --locked --no-fail-fast
