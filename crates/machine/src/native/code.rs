@@ -10,7 +10,7 @@ use std::sync::atomic::{AtomicU8, Ordering};
 use cranelift_codegen::ir::{UserFuncName, types};
 use cranelift_codegen::settings::{self, Configurable};
 use cranelift_frontend::{FunctionBuilder, FunctionBuilderContext};
-use cranelift_jit::{JITBuilder, JITModule};
+use cranelift_jit::{ArenaMemoryProvider, JITBuilder, JITModule};
 use cranelift_module::{FuncId, Linkage, Module, default_libcall_names};
 use program::{Expression, FunctionId, ProcedureId, Program, RuleId};
 
@@ -78,8 +78,12 @@ impl Drop for Owner {
     }
 }
 
+/// LIMIT: bytes of the address space for one program's code. Functions call each other by distances of 32 bits, which memory from
+/// anywhere may exceed once the process has gigabytes; this is in one piece. Only what is written takes memory.
+const ROOM: usize = 64 << 20;
+
 impl Code {
-    /// Compiles for a started machine; none on a processor that Cranelift has no code for. The code notes which rules run if that
+    /// Compiles for a started machine; none on a processor that Cranelift has no code for, or where there is no room for it. The code notes which rules run if that
     /// is wanted.
     pub fn compile(program: &Arc<Program>, subject: Subject, core: &Core, notes_rules: bool) -> Option<Code> {
         let mut flags = settings::builder();
@@ -88,6 +92,7 @@ impl Code {
         flags.set("enable_verifier", if cfg!(debug_assertions) { "true" } else { "false" }).ok()?;
         let isa = cranelift_native::builder().ok()?.finish(settings::Flags::new(flags)).ok()?;
         let mut builder = JITBuilder::with_isa(isa, default_libcall_names());
+        builder.memory_provider(Box::new(ArenaMemoryProvider::new_with_size(ROOM).ok()?));
         Helpers::register(&mut builder);
         let mut module = JITModule::new(builder);
         let helpers = Helpers::declare(&mut module)?;
