@@ -5,6 +5,7 @@
 //! crates below. It must not know files, terminals or wire formats.
 
 mod asked_of_system;
+mod assumptions;
 mod avalla;
 mod build;
 mod check_coupling;
@@ -39,6 +40,7 @@ use syntax::ast::AstNode;
 use syntax::{Diagnostic, Severity, SourceFile, Sources, Span};
 
 pub use asked_of_system::{check_asked_of_system, draws_system, libraries_of, refusal, words, words_of};
+pub use assumptions::{Assumptions, OPTION as ASSUME, assume, terms_of};
 pub use build::{BuiltChart, Located, build_chart};
 pub use check_coupling::check_coupling;
 pub use check_specification::check_specification;

@@ -12,6 +12,7 @@ use rustc_hash::FxHashMap;
 use crate::game::{Lost, Solution};
 use crate::product::{Answers, Deed, Node, NodeId, PairId, Product};
 use crate::side::{Move, StateId};
+use crate::why::why;
 use crate::{ABSTRACT, CONCRETE};
 
 /// LIMIT: so many of the best candidates are told.
@@ -38,11 +39,26 @@ pub struct Segment {
 }
 
 /// A part of the coupling that does not hold.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Part {
     /// As the coupling says it.
     pub text: String,
-    /// What it looks at, with the values.
+    /// What it looks at, with the values, where that fails.
+    pub values: Differs,
+    /// Instances of a `forall` that do not hold.
+    pub instances: Vec<Instance>,
+    /// So many more instances, or arguments, are not told.
+    pub more: usize,
+    /// Why it is neither true nor false.
+    pub trouble: Option<String>,
+}
+
+/// An instance of a `forall` that does not hold.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Instance {
+    /// The variables.
+    pub bound: Differs,
+    /// What it looks at.
     pub values: Differs,
     /// Why it is neither true nor false.
     pub trouble: Option<String>,
@@ -298,10 +314,8 @@ fn unmatched(product: &mut Product<'_>, end: &Answers) -> Ended {
                 steps.extend(tell(product, ABSTRACT, from, &made));
             }
         }
-        let parts = failing.into_iter().map(|index| {
-            let (values, trouble) = product.judge.why(&mut product.sides, index, [state, end.to]);
-            Part { text: product.judge.coupling.conjunct(index), values, trouble }
-        });
+        let parts =
+            failing.into_iter().map(|index| why(&mut product.judge, &mut product.sides, index, [state, end.to]));
         let mut parts: Vec<Part> = parts.collect();
         if let (0, Some(from), Some(text)) = (m, end.from, product.judge.coupling.variant()) {
             let (before, after) = ([from, end.begun], [from, end.to]);
@@ -309,7 +323,7 @@ fn unmatched(product: &mut Product<'_>, end: &Answers) -> Ended {
                 let values = product.judge.descent(&mut product.sides, before, after);
                 let values = ["before", "after"].map(str::to_string).into_iter().zip(values).collect();
                 let trouble = Some("is negative or does not decrease".to_string());
-                parts.push(Part { text: format!("variant {text}"), values, trouble });
+                parts.push(Part { text: format!("variant {text}"), values, trouble, ..Part::default() });
             }
         }
         tried.push(Tried { steps, parts });

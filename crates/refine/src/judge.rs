@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use machine::{Choice, Environment, Limits, LocationRef, Machine, TimeUnit, Value};
-use program::{DomainId, Expression, FunctionId, Program};
+use program::{DomainId, Expression, FunctionId, Program, Slot, TermId};
 use rustc_hash::FxHashMap;
 
 use crate::coupling::{Conjunct, Coupling};
@@ -17,7 +17,10 @@ use crate::side::{Side, StateId};
 use crate::{ABSTRACT, CONCRETE, SIDES};
 
 /// What was read while a term was evaluated: the side, the function, its arguments, the value, all as the joint model has them.
-type Read = (usize, FunctionId, Vec<Value>, Value);
+pub(crate) type Read = (usize, FunctionId, Vec<Value>, Value);
+
+/// The value of a variable.
+pub(crate) type Bound = (Slot, Value);
 
 /// Decides pairs of states.
 pub(crate) struct Judge<'c> {
@@ -120,11 +123,27 @@ impl<'c> Judge<'c> {
         formula: &Expression,
         states: [StateId; 2],
     ) -> (Result<Value, String>, Vec<Read>) {
+        self.evaluate_with(sides, (formula.body, formula.frame), &[], states)
+    }
+
+    /// The same of a part of a term, in a frame of so many slots, some of which have values.
+    pub fn evaluate_with(
+        &mut self,
+        sides: &mut [Side; 2],
+        (term, frame): (TermId, u32),
+        bound: &[Bound],
+        states: [StateId; 2],
+    ) -> (Result<Value, String>, Vec<Read>) {
         self.machine.forget_inputs();
         let joint = &self.coupling.joint;
         let mut both = Both { joint, sides, states, reads: Vec::new() };
-        let value = self.machine.evaluate(formula, &mut both);
+        let value = self.machine.evaluate_with(term, frame, bound, &mut both);
         (value.map_err(|fault| fault.show(&joint.program).to_string()), both.reads)
+    }
+
+    /// The elements of a domain of the joint model, if they can be listed.
+    pub fn elements(&mut self, domain: DomainId) -> Option<Vec<Value>> {
+        self.machine.elements(domain).ok()
     }
 
     /// The variant of two states, if there is one and it has a value there.
@@ -196,6 +215,17 @@ impl<'c> Judge<'c> {
         }
     }
 
+    /// The same by arguments.
+    pub fn values_of(
+        &mut self,
+        sides: &mut [Side; 2],
+        index: usize,
+        side: usize,
+        state: StateId,
+    ) -> BTreeMap<Vec<Value>, Value> {
+        self.values(sides, index, side, state).into_iter().collect()
+    }
+
     fn signature(&mut self, sides: &mut [Side; 2], index: usize, side: usize, state: StateId) -> u32 {
         if let Some(known) = self.signatures.get(&(index, side, state)) {
             return *known;
@@ -205,54 +235,5 @@ impl<'c> Judge<'c> {
         let number = *self.numbers.entry(values).or_insert(next);
         self.signatures.insert((index, side, state), number);
         number
-    }
-
-    /// Why a part of the relation does not hold of two states: what it looked at, with its values.
-    pub fn why(
-        &mut self,
-        sides: &mut [Side; 2],
-        index: usize,
-        states: [StateId; 2],
-    ) -> (Vec<(String, String)>, Option<String>) {
-        use machine::Show;
-        let program = &self.coupling.joint.program;
-        match &self.coupling.conjuncts[index] {
-            Conjunct::Term { formula, .. } => {
-                let (value, reads) = self.evaluate(sides, formula, states);
-                let shown = reads.into_iter().map(|(side, function, arguments, value)| {
-                    let location = machine::Location { function, arguments };
-                    let name = location.show(program).to_string();
-                    let prefix = crate::joint::joint_name(side, "");
-                    let plain = name.strip_prefix(&prefix).unwrap_or(&name).to_string();
-                    (format!("{}.{plain}", SIDES[side]), value.show(program).to_string())
-                });
-                let trouble = match value {
-                    Err(fault) => Some(format!("cannot be evaluated ({fault})")),
-                    Ok(Value::Undef) => Some("is undef".to_string()),
-                    Ok(_) => None,
-                };
-                (shown.collect(), trouble)
-            }
-            Conjunct::Same { name, .. } => {
-                let name = name.clone();
-                let both: [BTreeMap<Vec<Value>, Value>; 2] = [ABSTRACT, CONCRETE]
-                    .map(|side| self.values(sides, index, side, states[side]).into_iter().collect());
-                let program = &self.coupling.joint.program;
-                let mut shown = Vec::new();
-                let all: std::collections::BTreeSet<&Vec<Value>> =
-                    both.iter().flat_map(|values| values.keys()).collect();
-                for arguments in all {
-                    let of = |side: usize| both[side].get(arguments).cloned().unwrap_or(Value::Undef);
-                    let listed: Vec<String> = arguments.iter().map(|value| value.show(program).to_string()).collect();
-                    let listed = if listed.is_empty() { String::new() } else { format!("({})", listed.join(",")) };
-                    if of(ABSTRACT) != of(CONCRETE) {
-                        for (side, word) in SIDES.iter().enumerate() {
-                            shown.push((format!("{word}.{name}{listed}"), of(side).show(program).to_string()));
-                        }
-                    }
-                }
-                (shown, None)
-            }
-        }
     }
 }

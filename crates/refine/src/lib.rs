@@ -5,6 +5,7 @@
 //! G. Schellhorn, *Verification of ASM refinements using generalized forward simulation* (2001). Decided by a game on pairs of states,
 //! docs/adr/0023. It must not know files or how results are told.
 
+mod bounded;
 mod build;
 mod coupling;
 mod determined;
@@ -16,6 +17,8 @@ mod induction;
 mod joint;
 mod judge;
 mod layout;
+mod limited;
+mod options;
 mod preserve;
 mod product;
 mod refine;
@@ -23,19 +26,20 @@ mod report;
 mod side;
 mod transfer;
 mod translate;
+mod why;
 mod written;
 
 pub use coupling::{Coupling, Faulty};
 pub use diagram::{Diagram, Diagrams};
-pub use evidence::{Differs, Ended, Part, Refutation, Run, Segment, Tried};
+pub use evidence::{Differs, Ended, Instance, Part, Refutation, Run, Segment, Tried};
 pub use fault::IDS;
 pub use induction::proof::{Attempt, Gap, Obligation, Origin, Proof, SOLVERS, Said, Stuck};
 pub use induction::{Provers, prove};
 pub use layout::format;
+pub use options::{Extent, Options};
 pub use preserve::Preserved;
-pub use refine::{Options, Trouble, refine};
-pub use report::{Assumed, Progress, Report, Vacuous, Verdict, Why};
-pub use side::Extent;
+pub use refine::{Trouble, refine};
+pub use report::{Assumed, From, Progress, Report, Vacuous, Verdict, Why};
 pub use written::{Mapped, Part as WrittenPart, WORDS, Written, read};
 
 /// The abstract machine's place in a pair.

@@ -8,35 +8,21 @@ use explore::{Unbounded, Widening};
 use machine::{Cause, Fault};
 use program::PropertyKind;
 
+use crate::bounded::{of_proof, of_refutation};
 use crate::coupling::Coupling;
 use crate::evidence;
 use crate::game::{Rules, solve};
 use crate::judge::Judge;
+use crate::limited::with_shared_inputs;
+use crate::options::Options;
 use crate::preserve::preserved;
 use crate::product::{Node, NodeId, Product, Unclear};
-use crate::report::{Assumed, Progress, Report, Vacuous, Verdict, Why};
-use crate::side::{Extent, Side, Stopped};
+use crate::report::{Assumed, From, Progress, Report, Vacuous, Verdict, Why};
+use crate::side::{Side, Stopped};
 use crate::{ABSTRACT, CONCRETE};
 
 /// LIMIT: so many pairs of states are compared to find out whether the relation says anything.
 const COMPARED: usize = 1 << 22;
-
-/// Options of a refinement check.
-#[derive(Debug, Clone)]
-pub struct Options {
-    /// How the two machines are explored.
-    pub extents: [Extent; 2],
-    /// The most pairs of states.
-    pub max_pairs: u64,
-    /// The most steps of both machines together; looked at between pairs.
-    pub max_steps: u64,
-}
-
-impl Default for Options {
-    fn default() -> Options {
-        Options { extents: Default::default(), max_pairs: u64::MAX, max_steps: u64::MAX }
-    }
-}
 
 /// Why nothing can be said.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -58,6 +44,7 @@ pub fn refine(
     options: &Options,
     watch: &mut dyn FnMut(&Progress) -> bool,
 ) -> Result<Report, Trouble> {
+    let options = &with_shared_inputs(coupling, options);
     let mut widenings: [Widening; 2] = Default::default();
     loop {
         match attempt(coupling, options, &widenings, watch)? {
@@ -174,20 +161,16 @@ fn attempt(
         Says::Nothing(vacuous) => Verdict::Vacuous(vacuous),
         said @ (Says::Something | Says::Perhaps(_)) => {
             let hopeful = solve(&product, Rules::of(&product, true));
-            let of_free = |input: &program::FunctionId| !coupling.shared[ABSTRACT].contains_key(input);
-            if !hopeful.won && options.extents[ABSTRACT].bounds.keys().any(of_free) {
-                // With other values of its own inputs it might have had an answer.
-                Verdict::Unknown(vec![Why::Bounded(ABSTRACT)])
+            let lacking = if hopeful.won { Vec::new() } else { of_refutation(&product, &options.extents) };
+            if !lacking.is_empty() {
+                // With other values of its inputs it might have had an answer.
+                Verdict::Unknown(lacking)
             } else if !hopeful.won {
                 Verdict::DoesNot(Box::new(evidence::refutation(&mut product, &hopeful)))
             } else {
                 let sure = solve(&product, Rules::of(&product, false));
-                for side in [ABSTRACT, CONCRETE] {
-                    if !options.extents[side].bounds.is_empty() {
-                        whys.add(Why::Bounded(side));
-                    }
-                }
-                let bounded = whys.0.iter().copied().filter(|why| matches!(why, Why::Bounded(_))).collect::<Vec<_>>();
+                let bounded = of_proof(&product, &options.extents);
+                bounded.iter().for_each(|why| whys.add(*why));
                 if sure.won {
                     diagrams = evidence::used(&product, &sure);
                 }
@@ -207,14 +190,27 @@ fn attempt(
     for side in [ABSTRACT, CONCRETE] {
         let properties = &coupling.programs[side].properties;
         let invars = properties.iter().filter(|property| property.kind == PropertyKind::Invar);
-        assumed.extend(invars.map(|property| Assumed { side, name: property.name.clone() }));
+        assumed.extend(invars.map(|property| Assumed {
+            side,
+            name: property.name.clone(),
+            from: From::Text(property.span),
+        }));
+        let of_inputs = options.extents[side].assumed.values();
+        // What is assumed of the concrete machine's input is told there.
+        for (name, file) in of_inputs.filter(|(name, _)| !name.is_empty()) {
+            let bound = Assumed { side, name: name.clone(), from: From::File(file.clone()) };
+            if !assumed.contains(&bound) {
+                assumed.push(bound);
+            }
+        }
     }
     let idle = product.sides[ABSTRACT].steps.1 == 0;
     let properties = match verdict {
         Verdict::Refines => preserved(&mut product),
         _ => Vec::new(),
     };
-    Ok(Ok(Report { verdict, progress, diagrams, assumed, idle, properties, proof: None }))
+    let dead_ends = product.sides[CONCRETE].dead_ends();
+    Ok(Ok(Report { verdict, progress, diagrams, assumed, idle, dead_ends, properties, proof: None }))
 }
 
 /// What was not clear anywhere that matters.
@@ -264,6 +260,9 @@ fn says(product: &mut Product<'_>, is_complete: bool) -> Says {
     }
     if product.pairs.is_empty() {
         return Says::Nothing(Vacuous::NoInitialPair(Box::new(evidence::no_initial_pair(product))));
+    }
+    if is_complete && product.sides[CONCRETE].steps.0 == 0 {
+        return Says::Nothing(Vacuous::NoneLeft);
     }
     if is_complete && product.sides[CONCRETE].steps.1 == 0 {
         return Says::Nothing(Vacuous::NoStep);

@@ -4,6 +4,8 @@ use std::collections::BTreeMap;
 
 use explore::Unbounded;
 use machine::Cause;
+use program::FunctionId;
+use syntax::Span;
 
 use crate::evidence::Refutation;
 use crate::induction::proof::Proof;
@@ -39,8 +41,8 @@ pub enum Why {
     Valuations,
     /// The relation holds of so many pairs of states that were compared, and perhaps of every two states.
     Undistinguished(usize),
-    /// Inputs of a machine had only the values that were given as bounds.
-    Bounded(usize),
+    /// A machine looks at an input, of which bounds leave out values.
+    Bounded(usize, FunctionId),
     /// An inductive proof is not whole; its gap says why.
     Unproved,
 }
@@ -52,6 +54,8 @@ pub enum Vacuous {
     NoInitialPair(Box<Refutation>),
     /// The concrete machine makes no step that changes its state.
     NoStep,
+    /// The assumptions leave the concrete machine no step.
+    NoneLeft,
     /// The relation holds of every two states.
     Total,
     /// A machine has no initial state that its assumptions admit.
@@ -71,13 +75,24 @@ pub enum Verdict {
     Vacuous(Vacuous),
 }
 
-/// What the verdict relies on that the models say.
+/// What the verdict relies on: an assumption about one of the machines.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Assumed {
     /// The machine.
     pub side: usize,
-    /// The name of the INVAR.
+    /// The name of the INVAR or its text, or what is assumed of an input.
     pub name: String,
+    /// Where it is said.
+    pub from: From,
+}
+
+/// Where an assumption is said.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum From {
+    /// There, in the texts of the machine.
+    Text(Span),
+    /// In a file of this name.
+    File(String),
 }
 
 /// See the module.
@@ -93,6 +108,8 @@ pub struct Report {
     pub assumed: Vec<Assumed>,
     /// The abstract machine makes no step that changes its state.
     pub idle: bool,
+    /// In so many concrete states that were met the assumptions leave no step: a run ends there.
+    pub dead_ends: u64,
     /// If it refines: the properties of the abstract machine, and whether they come along.
     pub properties: Vec<Preserved>,
     /// If it was to be proved by induction: how far the proof came.

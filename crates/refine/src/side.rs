@@ -10,11 +10,13 @@ use std::rc::Rc;
 use std::sync::Arc;
 
 use explore::{Explorer, Interner, Outcome, Settings, Start, Told, Trouble, Truth, Unbounded, Widening, input_values};
-use machine::{Bounds, Fault, FaultKind, Interrupt, Limits, Location, Value};
+use machine::{Fault, FaultKind, Interrupt, Location, Value};
 use program::{Expression, FunctionId, Program, PropertyKind};
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::joint::Bridge;
+use crate::limited::limited;
+use crate::options::Extent;
 
 /// The number of a state of one machine.
 pub type StateId = u32;
@@ -106,19 +108,11 @@ pub(crate) struct Side {
     reads: Vec<FxHashMap<(FunctionId, Vec<Value>), Value>>,
     /// By function, the term that reads it.
     readers: FxHashMap<FunctionId, Expression>,
+    /// Inputs of which bounds leave out values, and those of them that a step or an initial state looked at.
+    limited: BTreeSet<FunctionId>,
+    looked_at: BTreeSet<FunctionId>,
     /// How many different steps there are, and how many change the state.
     pub steps: (u64, u64),
-}
-
-/// What a machine is explored with.
-#[derive(Debug, Clone, Default)]
-pub struct Extent {
-    /// The machine's limits.
-    pub limits: Limits,
-    /// The values to try for inputs, if not all of their domains.
-    pub bounds: Bounds,
-    /// Ends the search when raised.
-    pub interrupt: Interrupt,
 }
 
 impl Side {
@@ -131,7 +125,7 @@ impl Side {
         readers: FxHashMap<FunctionId, Expression>,
         watched: &[(u32, Expression)],
     ) -> Result<Side, Trouble> {
-        let bounds = input_values(program, &extent.bounds, &BTreeSet::new());
+        let bounds = input_values(program, &extent.bounds, &extent.undefined);
         let mut settings = Settings { limits: extent.limits.clone(), bounds: Arc::new(bounds), ..Settings::default() };
         settings.interrupt = extent.interrupt.clone();
         for property in program.properties.iter().filter(|property| property.kind == PropertyKind::Invar) {
@@ -160,6 +154,8 @@ impl Side {
             moves: Vec::new(),
             reads: Vec::new(),
             readers,
+            limited: limited(program, extent),
+            looked_at: BTreeSet::new(),
             steps: (0, 0),
         })
     }
@@ -177,7 +173,24 @@ impl Side {
 
     /// Whether a state that was looked at has no step at all, since assumptions leave none.
     pub fn has_dead_end(&self) -> bool {
-        self.moves.iter().flatten().any(|moves| moves.is_empty())
+        self.dead_ends() > 0
+    }
+
+    /// How many such states there are.
+    pub fn dead_ends(&self) -> u64 {
+        self.moves.iter().flatten().filter(|moves| moves.is_empty()).count() as u64
+    }
+
+    /// Inputs of which bounds leave out values, and at which the machine looked.
+    pub fn limited_and_read(&self) -> Vec<FunctionId> {
+        self.looked_at.iter().copied().collect()
+    }
+
+    fn look_at(&mut self, read: &[(Location, Value)]) {
+        if !self.limited.is_empty() {
+            let read = read.iter().map(|(location, _)| location.function);
+            self.looked_at.extend(read.filter(|function| self.limited.contains(function)));
+        }
     }
 
     /// The packed state of a number.
@@ -210,10 +223,11 @@ impl Side {
             if !self.is_assumed(&state) {
                 continue;
             }
-            let told = match self.shared.is_empty() {
+            let told = match self.shared.is_empty() && self.limited.is_empty() {
                 true => Told::default(),
                 false => self.explorer.told_of_start(start),
             };
+            self.look_at(&told.inputs);
             let label = self.label_of_inputs(&told.inputs, inputs, bridge);
             let state = self.number(state);
             if seen.insert((Rc::clone(&label), state)) {
@@ -276,6 +290,7 @@ impl Side {
         let mut moves = Vec::new();
         let mut seen = FxHashSet::default();
         for (read, failed, outcome) in paths {
+            self.look_at(&read);
             let mut label = self.label(&read, &failed, inputs, bridge);
             if !given.is_empty() {
                 let mut all: Vec<(u32, u32)> = label.iter().chain(given).copied().collect();

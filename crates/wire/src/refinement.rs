@@ -2,7 +2,7 @@
 //!
 //! In: a report with the words for its runs. Out: [`Refinement`]: the verdict, the extent, where it fails both runs with their diagrams.
 
-use groundstate::refine::{ABSTRACT, CONCRETE, Ended, Refutation, Report, SIDES, Vacuous, Verdict, Why};
+use groundstate::refine::{ABSTRACT, CONCRETE, Ended, Instance, Refutation, Report, SIDES, Vacuous, Verdict, Why};
 use groundstate::tell::{Refinements, Standing};
 use serde::Serialize;
 
@@ -82,6 +82,9 @@ struct DiagramLine {
 struct AssumedLine {
     model: &'static str,
     name: String,
+    /// The file beside the model, or the option, that says it; absent if the model itself does.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    from: Option<String>,
 }
 
 /// Both runs to the first step that nothing matches.
@@ -118,9 +121,38 @@ struct TriedLine {
 struct FailingPart {
     part: String,
     values: Vec<(String, String)>,
+    /// Instances of a `forall` that do not hold.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    instances: Vec<InstanceLine>,
+    /// So many more instances, or arguments, are left out.
+    #[serde(skip_serializing_if = "is_zero")]
+    more: usize,
     /// Why it is neither true nor false.
     #[serde(skip_serializing_if = "Option::is_none")]
     trouble: Option<String>,
+}
+
+/// An instance of a `forall` that does not hold.
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+struct InstanceLine {
+    /// The variables.
+    bound: Vec<(String, String)>,
+    values: Vec<(String, String)>,
+    /// Why it is neither true nor false.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    trouble: Option<String>,
+}
+
+impl InstanceLine {
+    fn of(instance: &Instance) -> InstanceLine {
+        let Instance { bound, values, trouble } = instance.clone();
+        InstanceLine { bound, values, trouble }
+    }
+}
+
+fn is_zero(count: &usize) -> bool {
+    *count == 0
 }
 
 impl Refinement {
@@ -138,7 +170,7 @@ impl Refinement {
             Verdict::Vacuous(vacuous) => {
                 let runs = match vacuous {
                     Vacuous::NoInitialPair(refutation) => Some(refutation.as_ref()),
-                    Vacuous::NoStep | Vacuous::Total | Vacuous::NoStart(_) => None,
+                    Vacuous::NoStep | Vacuous::NoneLeft | Vacuous::Total | Vacuous::NoStart(_) => None,
                 };
                 ("vacuous", vec![words.vacuous(vacuous).message], runs)
             }
@@ -160,7 +192,10 @@ impl Refinement {
             assumed: report
                 .assumed
                 .iter()
-                .map(|assumed| AssumedLine { model: SIDES[assumed.side], name: assumed.name.clone() })
+                .map(|assumed| {
+                    let (name, from) = words.assumed_from(assumed);
+                    AssumedLine { model: SIDES[assumed.side], name, from }
+                })
                 .collect(),
             pairs: progress.pairs,
             open_pairs: progress.queue,
@@ -223,6 +258,8 @@ impl RunPair {
                             .map(|part| FailingPart {
                                 part: part.text.clone(),
                                 values: part.values.clone(),
+                                instances: part.instances.iter().map(InstanceLine::of).collect(),
+                                more: part.more,
                                 trouble: part.trouble.clone(),
                             })
                             .collect(),

@@ -13,7 +13,7 @@ use groundstate::job::{self, Cancel, RefineEvent};
 use groundstate::refine::{ABSTRACT, CONCRETE, Coupling, Extent, Options, Report, SIDES, Trouble, Verdict, read};
 use groundstate::tell::{Refinements, Standing, no_start, trace_of};
 use groundstate::verify::{Outcome, Progress, Subject};
-use groundstate::{Loaded, refine, verify_preserved};
+use groundstate::{Assumptions, Loaded, assume, refine, terms_of, verify_preserved};
 use machine::Limits;
 use syntax::{FileId, SourceFile, Sources};
 
@@ -24,6 +24,7 @@ use crate::interrupt;
 use crate::load::load;
 use crate::shell::Shell;
 use crate::solver::Process;
+use crate::verify::beside::path_of;
 use crate::verify::watch::Watch;
 
 /// The time limit for each question to a solver, in seconds.
@@ -41,6 +42,10 @@ pub struct Arguments {
     /// The values to try for an input of either model, as NAME=LOW..HIGH or NAME=VALUE,VALUE; may be repeated
     #[arg(long = "bound", value_name = "BOUND")]
     bounds: Vec<String>,
+    /// An assumption about one of the machines, as INVAR: skip states in which it is false, or steps if it reads inputs. Names may
+    /// begin with `abstract.` or `concrete.`. Default: those of MODEL.verify.yaml beside the model; may be repeated
+    #[arg(long = "assume", value_name = "TERM")]
+    assumptions: Vec<String>,
     /// The most pairs of states
     #[arg(long, value_name = "N", value_parser = crate::limits::count)]
     max_states: Option<u64>,
@@ -56,6 +61,9 @@ pub struct Arguments {
     /// Explore the pairs of states; or prove by induction, for states without end: z3 and cvc5 must both accept
     #[arg(long, value_enum, default_value_t = Method::Explicit)]
     method: Method,
+    /// Show all of the first states and of the coupling, not only what matters
+    #[arg(long)]
+    all: bool,
     /// Write what --method induction asks the solvers into this folder, as SMT-LIB
     #[arg(long, value_name = "FOLDER")]
     obligations: Option<PathBuf>,
@@ -98,6 +106,8 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
         models.push(loaded);
     }
     let Ok(models) = <[Loaded; 2]>::try_from(models) else { unreachable!("there are two models") };
+    let Some(assumed) = assumed(shell, arguments, &question, &models)? else { return Ok(Exit::World) };
+    let models = [&assumed[ABSTRACT].model, &assumed[CONCRETE].model];
     let programs = [&models[0].program, &models[1].program];
     let limits = shell.global.limits.uninterrupted();
     let coupling = match Coupling::new(programs, question.coupling, &limits) {
@@ -110,12 +120,15 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     let mut options = Options { max_pairs: arguments.max_states.unwrap_or(u64::MAX), ..Options::default() };
     for (side, model) in models.iter().enumerate() {
         options.extents[side] = Extent { limits: limits.clone(), ..Extent::default() };
+        assumed[side].put(&mut options.extents[side]);
         for text in &arguments.bounds {
             // An input that only the other model has is bounded there.
             if bound::is_of_input(&model.program, text) || !bound::is_of_input(&models[1 - side].program, text) {
                 let wrong = |refused| Failure::usage_with_help(format!("--bound {refused}"), bound::HELP);
                 let bounds = bound::read(&model.program, std::slice::from_ref(text)).map_err(wrong)?;
-                options.extents[side].bounds.extend(bounds);
+                let extent = &mut options.extents[side];
+                extent.assumed.retain(|function, _| !bounds.contains_key(function));
+                extent.bounds.extend(bounds);
             }
         }
     }
@@ -137,16 +150,15 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     let (outcome, coupling) = job.finish().unwrap_or_else(|crashed| panic!("{}", crashed.0));
     let verified = match &outcome {
         Ok(report) if arguments.properties => {
-            Some(verify_abstract(&models[ABSTRACT], report, arguments, limits, &mut watch))
+            Some(verify_abstract(&assumed[ABSTRACT], report, arguments, limits, &mut watch))
         }
         _ => None,
     };
     let timed_out = watch.done();
-    let words =
-        Refinements { models: [&models[0], &models[1]], coupling: &coupling, timed_out, verified: verified.as_ref() };
+    let words = Refinements { models, coupling: &coupling, timed_out, all: arguments.all, verified: verified.as_ref() };
     let report = match outcome {
         Ok(report) => report,
-        Err(trouble) => return no_report(shell, &trouble, [&models[0], &models[1]]),
+        Err(trouble) => return no_report(shell, &trouble, models),
     };
     if let (Some(folder), Some(proof)) = (&arguments.obligations, &report.proof) {
         write_obligations(folder, proof)?;
@@ -160,6 +172,38 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
         Verdict::DoesNot(_) | Verdict::Vacuous(_) => Exit::Model,
         Verdict::Unknown(_) => Exit::Unknown,
     })
+}
+
+/// Both models with what is assumed of them; if that has faults, shows them and returns `None`.
+fn assumed(
+    shell: &mut Shell,
+    arguments: &Arguments,
+    question: &Question,
+    models: &[Loaded; 2],
+) -> Result<Option<[Assumptions; 2]>, Failure> {
+    let terms = match terms_of([&models[ABSTRACT], &models[CONCRETE]], &arguments.assumptions) {
+        Ok(terms) => terms,
+        Err(trouble) => {
+            shell.diagnostics(&trouble.0, &trouble.1)?;
+            return Ok(None);
+        }
+    };
+    let mut all = Vec::new();
+    for (side, model) in models.iter().enumerate() {
+        let path = path_of(&question.models[side]);
+        let beside = match read_source(&path, shell.global.limits.max_file_size) {
+            Err(Failure::Missing(_)) => None,
+            read => Some(read?),
+        };
+        match assume(model, beside.as_ref(), &terms[side]) {
+            Ok(assumptions) => all.push(assumptions),
+            Err(trouble) => {
+                shell.diagnostics(&trouble.0, &trouble.1)?;
+                return Ok(None);
+            }
+        }
+    }
+    Ok(<[Assumptions; 2]>::try_from(all).ok())
 }
 
 /// Whether the options are those of the method.
@@ -201,7 +245,7 @@ fn write_obligations(folder: &Path, proof: &refine::Proof) -> Result<(), Failure
 
 /// Verifies the properties of the abstract machine that come along.
 fn verify_abstract(
-    model: &Loaded,
+    assumed: &Assumptions,
     report: &Report,
     arguments: &Arguments,
     limits: Limits,
@@ -210,10 +254,14 @@ fn verify_abstract(
     let options = groundstate::verify::Options {
         limits,
         max_states: arguments.max_states.unwrap_or(u64::MAX),
+        // The refinement is of the abstract machine under its assumptions.
+        bounds: assumed.bounds.clone(),
+        undefined: assumed.undefined.clone(),
         interrupt: interrupt::request().clone(),
         ..groundstate::verify::Options::default()
     };
-    let found = verify_preserved(&model.program, &report.properties, &options, &mut |progress| watch.at(progress));
+    let found =
+        verify_preserved(&assumed.model.program, &report.properties, &options, &mut |progress| watch.at(progress));
     // A machine without initial states refines nothing; an interrupt leaves all of it open.
     found.unwrap_or_default()
 }

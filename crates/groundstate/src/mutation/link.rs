@@ -14,7 +14,7 @@ use syntax::{Diagnostic, FileId, Sources};
 
 use super::Extent;
 use crate::workspace::{Files, NotLoaded, tidy};
-use crate::{Faulty, Workspace, fingerprint, text_fingerprint};
+use crate::{Faulty, Workspace, assume, fingerprint, text_fingerprint};
 
 /// A coupling that judges.
 #[derive(Debug)]
@@ -81,6 +81,7 @@ fn asked<F: Files>(
         Box::new(Says::Unfit("has faults".to_string(), sources, vec![*fault]))
     })?;
     let mut programs = Vec::new();
+    let mut options = Options { max_pairs: extent.max_states, ..Options::default() };
     for (side, named) in written.models.iter().enumerate() {
         let Some(named) = named else { return Err(unfit(format!("does not name the {} model", SIDES[side]))) };
         let model = beside(&link.path, &named.text);
@@ -96,12 +97,21 @@ fn asked<F: Files>(
         if loaded.program.main.is_none() {
             return Err(unfit(format!("is about {model}, which has no main rule")));
         }
-        programs.push(Arc::clone(&loaded.program));
+        let spec = Path::new(&model).with_extension("verify.yaml");
+        let beside = workspace.text(&spec.to_string_lossy()).ok();
+        if let Some(beside) = &beside {
+            link.print += &format!(" {}", text_fingerprint(&beside.text));
+        }
+        let assumptions = assume(&loaded, beside.as_ref(), &[]).map_err(|trouble| {
+            let (sources, faults) = *trouble;
+            Box::new(Says::Unfit(format!("is about {model}, whose .verify.yaml has faults"), sources, faults))
+        })?;
+        assumptions.put(&mut options.extents[side]);
+        programs.push(Arc::clone(&assumptions.model.program));
         link.models.push(model);
     }
     let coupling = Coupling::new([&programs[0], &programs[1]], Some(file), &extent.limits)
         .map_err(|faulty| Box::new(Says::Unfit("has faults".to_string(), faulty.sources, faulty.faults)))?;
-    let mut options = Options { max_pairs: extent.max_states, ..Options::default() };
     for side in &mut options.extents {
         (side.limits, side.interrupt) = (extent.limits.clone(), interrupt.clone());
     }

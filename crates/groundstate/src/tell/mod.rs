@@ -12,6 +12,7 @@ mod proof;
 mod refinement;
 mod review;
 mod run;
+mod side_by_side;
 mod story;
 mod verdict;
 

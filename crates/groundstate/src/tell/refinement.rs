@@ -6,8 +6,8 @@ use std::collections::BTreeMap;
 
 use explore::Told;
 use refine::{
-    ABSTRACT, CONCRETE, Coupling, Ended, Part, Preserved, Refutation, Report, Run, SIDES, Trouble, Vacuous, Verdict,
-    Why,
+    ABSTRACT, Assumed, CONCRETE, Coupling, Ended, From, Preserved, Refutation, Report, Run, SIDES, Trouble, Vacuous,
+    Verdict, Why,
 };
 use syntax::Diagnostic;
 use verify::{Outcome, Trace};
@@ -15,10 +15,12 @@ use verify::{Outcome, Trace};
 use super::{FoundStep, Verdicts, plural};
 use crate::Loaded;
 
-/// LIMIT: so many lines of an initial state are shown.
-const STATE_LINES: usize = 24;
-/// LIMIT: the left column is as wide at most.
+/// LIMIT: the column of names is as wide at most.
 const WIDTH: usize = 56;
+/// LIMIT: so many parts of the coupling are listed.
+const PARTS: usize = 8;
+/// What is said in lines is broken behind so many characters.
+const LINE: usize = 100;
 
 /// Describes a refinement check.
 #[derive(Debug)]
@@ -29,6 +31,8 @@ pub struct Refinements<'a> {
     pub coupling: &'a Coupling,
     /// Whether the search stopped because its time was up.
     pub timed_out: bool,
+    /// Whether all of the first states and of the coupling is told, or what matters.
+    pub all: bool,
     /// What was found of the abstract machine's properties, by their index; none if nobody asked.
     pub verified: Option<&'a BTreeMap<usize, Outcome>>,
 }
@@ -139,8 +143,12 @@ impl Refinements<'_> {
             }
             Why::Valuations => "inputs that the concrete machine does not look at have too many values".to_string(),
             Why::Unproved => "the proof by induction is not whole".to_string(),
-            Why::Bounded(side) => {
-                format!("inputs of the {} machine had only the values that were given as bounds", SIDES[*side])
+            Why::Bounded(side, input) => {
+                let name = &self.models[*side].program.function(*input).name;
+                format!(
+                    "the {} machine looks at {name}, and `--bound {name}` leaves out values that it may have",
+                    SIDES[*side]
+                )
             }
         }
     }
@@ -155,9 +163,7 @@ impl Refinements<'_> {
         let progress = &report.progress;
         let mut lines = Vec::new();
         if matches!(report.verdict, Verdict::Refines | Verdict::Unknown(_)) {
-            let names: Vec<String> =
-                (0..self.coupling.conjuncts()).map(|index| self.coupling.conjunct(index)).collect();
-            lines.push(format!("  observed   {}", names.join("; ")));
+            lines.extend(self.observed());
         }
         if !report.diagrams.is_empty() {
             let used = report
@@ -177,7 +183,11 @@ impl Refinements<'_> {
             lines.push(format!("  assumed    {what}"));
         }
         for assumed in &report.assumed {
-            lines.push(format!("  assumed    {} ({})", assumed.name, SIDES[assumed.side]));
+            lines.push(format!("  assumed    {}", self.assumed(assumed)));
+        }
+        if report.dead_ends > 0 {
+            let states = plural(report.dead_ends as usize, "concrete state");
+            lines.push(format!("  note: in {states} the assumptions leave no step; a run ends there"));
         }
         if report.idle && matches!(report.verdict, Verdict::Refines) {
             lines.push("  note: the abstract machine makes no step that changes its state".to_string());
@@ -194,6 +204,45 @@ impl Refinements<'_> {
             plural(progress.steps[CONCRETE] as usize, "concrete step"),
         ));
         lines
+    }
+
+    /// An assumption, with the machine that it is about, and where it is said unless that is the model itself.
+    fn assumed(&self, assumed: &Assumed) -> String {
+        let Assumed { side, .. } = *assumed;
+        let (name, from) = self.assumed_from(assumed);
+        match from {
+            Some(from) => format!("{name} ({}, {from})", SIDES[side]),
+            None => format!("{name} ({})", SIDES[side]),
+        }
+    }
+
+    /// The words of an assumption, and where it is said unless that is the model itself.
+    pub fn assumed_from(&self, assumed: &Assumed) -> (String, Option<String>) {
+        let model = self.models[assumed.side];
+        let from = match &assumed.from {
+            From::File(name) => Some(name.clone()),
+            From::Text(span) if model.sources.iter().any(|(id, _)| id == span.file) => {
+                let name = &model.sources.file(span.file).name;
+                (name.ends_with(".yaml") || name == crate::ASSUME).then(|| name.clone())
+            }
+            From::Text(_) => None,
+        };
+        // A file is named as beside its model.
+        let from = from.map(|name| name.rsplit(['/', '\\']).next().unwrap_or(&name).to_string());
+        (assumed.name.split_whitespace().collect::<Vec<_>>().join(" "), from)
+    }
+
+    /// The parts of the coupling, a line each.
+    fn observed(&self) -> Vec<String> {
+        let count = self.coupling.conjuncts();
+        let told = if self.all || count <= PARTS { count } else { PARTS - 1 };
+        let mut parts: Vec<String> =
+            (0..told).flat_map(|index| broken_into(&self.coupling.conjunct(index), LINE)).collect();
+        if told < count {
+            parts.push(format!("… and {} more; --all lists them", count - told));
+        }
+        let word = |index: usize| if index == 0 { "observed" } else { "" };
+        parts.iter().enumerate().map(|(index, part)| format!("  {:9}  {part}", word(index))).collect()
     }
 
     /// What is known of a property of the abstract machine in the concrete one.
@@ -237,102 +286,6 @@ impl Refinements<'_> {
         lines
     }
 
-    /// Both runs side by side.
-    fn runs(&self, refutation: &Refutation) -> Vec<String> {
-        let runs = [ABSTRACT, CONCRETE].map(|side| self.steps(side, &refutation.runs[side]));
-        let mut rows: Vec<(String, Vec<String>, Vec<String>)> = Vec::new();
-        let begun = |side: usize| {
-            let values = &runs[side][0];
-            let mut lines: Vec<String> =
-                values.inputs.iter().map(|(location, value)| format!("in {location} = {value}")).collect();
-            lines.extend(values.values.iter().map(|(location, value)| format!("{location} = {value}")));
-            if lines.len() > STATE_LINES {
-                let more = lines.len() - STATE_LINES;
-                lines.truncate(STATE_LINES);
-                lines.push(format!("… and {more} more"));
-            }
-            lines
-        };
-        rows.push(("state 0".to_string(), begun(ABSTRACT), begun(CONCRETE)));
-        let (mut made, mut there) = (1, 1);
-        let lines = |steps: &[FoundStep]| steps.iter().flat_map(step).collect::<Vec<String>>();
-        for (index, segment) in refutation.segments.iter().enumerate() {
-            let label = match &refutation.ended {
-                Ended::Waits(turn) if *turn == index => format!("{}:{} again and again", segment.m, segment.n),
-                _ => format!("{}:{}", segment.m, segment.n),
-            };
-            let left = match segment.m {
-                0 => vec!["no step".to_string()],
-                m => lines(&runs[ABSTRACT][made..(made + m).min(runs[ABSTRACT].len())]),
-            };
-            rows.push((label, left, lines(&runs[CONCRETE][there..(there + segment.n).min(runs[CONCRETE].len())])));
-            (made, there) = (made + segment.m, there + segment.n);
-        }
-        if there < runs[CONCRETE].len() {
-            let left = match refutation.ended {
-                Ended::Fault => Vec::new(),
-                _ => vec!["nothing matches".to_string()],
-            };
-            rows.push((format!("?:{}", runs[CONCRETE].len() - there), left, lines(&runs[CONCRETE][there..])));
-        }
-        let count = |text: &str| text.chars().count();
-        let widest = rows.iter().flat_map(|(_, left, _)| left).map(|line| count(line)).max().unwrap_or(0);
-        let width = widest.clamp(count("abstract"), WIDTH);
-        let labels = rows.iter().map(|(label, ..)| count(label)).max().unwrap_or(0);
-        let mut out = vec![format!("  {:labels$}  {:width$}  concrete", "", "abstract")];
-        for (label, left, right) in rows {
-            for index in 0..left.len().max(right.len()).max(1) {
-                let label = if index == 0 { label.as_str() } else { "" };
-                let of = |lines: &[String]| lines.get(index).cloned().unwrap_or_default();
-                out.push(format!("  {label:labels$}  {:width$}  {}", of(&left), of(&right)));
-            }
-        }
-        out
-    }
-
-    /// What is wrong at the end of the runs.
-    fn end(&self, refutation: &Refutation) -> Vec<String> {
-        let mut lines = Vec::new();
-        match &refutation.ended {
-            Ended::Fault => {
-                let fault = self.steps(CONCRETE, &refutation.runs[CONCRETE]).pop().and_then(|step| step.fault);
-                lines.extend(fault.map(|fault| format!("  the concrete machine: {fault}")));
-            }
-            Ended::Waits(turn) => {
-                let from = refutation.segments[..*turn].iter().map(|segment| segment.n).sum::<usize>();
-                lines.push(format!("  and again from step {} of the concrete machine, for ever", from + 1));
-                lines.push(
-                    "  if something outside the models ends this, write `allow waiting;` into the coupling".to_string(),
-                );
-            }
-            Ended::Unmatched { inputs, tried, faults } => {
-                for (name, value) in inputs {
-                    lines.push(format!("  input {name} is {value}"));
-                }
-                for candidate in tried {
-                    let steps: Vec<String> = self.tried(&candidate.steps).iter().flat_map(step).collect();
-                    let what = match candidate.steps.len() {
-                        0 if refutation.runs[CONCRETE].steps.is_empty() => "the abstract machine begins".to_string(),
-                        0 => "the abstract machine makes no step".to_string(),
-                        _ => format!("the abstract machine steps: {}", steps.join(", ")),
-                    };
-                    lines.push(format!("  if {what}"));
-                    if candidate.parts.is_empty() {
-                        lines.push("    no diagram allows so many steps".to_string());
-                    }
-                    lines.extend(candidate.parts.iter().map(|part| format!("    {}", broken(part))));
-                }
-                if tried.is_empty() {
-                    lines.push("  the abstract machine has no step with these inputs".to_string());
-                }
-                lines.extend(
-                    faults.iter().map(|fault| format!("  a step of the abstract machine cannot be made: {fault}")),
-                );
-            }
-        }
-        lines
-    }
-
     /// A question that says nothing, as a fault of the coupling.
     pub fn vacuous(&self, vacuous: &Vacuous) -> Diagnostic {
         let message = match vacuous {
@@ -340,6 +293,9 @@ impl Refinements<'_> {
                 "no initial states correspond: the coupling holds of no initial pair".to_string()
             }
             Vacuous::NoStep => "the concrete machine makes no step that changes its state".to_string(),
+            Vacuous::NoneLeft => {
+                "the assumptions leave the concrete machine no step: there is nothing to refine".to_string()
+            }
             Vacuous::Total => "the coupling holds of every two states: nothing is observed".to_string(),
             Vacuous::NoStart(side) => {
                 format!("the {} machine has no initial state that its assumptions admit", SIDES[*side])
@@ -362,27 +318,18 @@ pub fn no_start(trouble: &Trouble, models: [&Loaded; 2]) -> Option<(usize, Diagn
     }
 }
 
-/// A step as lines.
-fn step(step: &FoundStep) -> Vec<String> {
-    let mut lines: Vec<String> =
-        step.inputs.iter().map(|(location, value)| format!("in {location} = {value}")).collect();
-    lines.extend(step.choices.iter().map(|choice| format!("choose {choice}")));
-    match &step.fault {
-        Some(_) => lines.push("cannot be made".to_string()),
-        None if step.changes.is_empty() => lines.push("no change".to_string()),
-        None => lines.extend(step.changes.iter().map(|change| {
-            let super::FoundChange { location, from, to, .. } = change;
-            format!("{location}: {from} -> {to}")
-        })),
+/// A text in lines of at most so many characters, where it has blanks.
+fn broken_into(text: &str, width: usize) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for word in text.split_whitespace() {
+        match lines.last_mut() {
+            Some(line) if line.chars().count() + 1 + word.chars().count() <= width => {
+                line.push(' ');
+                line.push_str(word);
+            }
+            Some(_) => lines.push(format!("  {word}")),
+            None => lines.push(word.to_string()),
+        }
     }
     lines
-}
-
-fn broken(part: &Part) -> String {
-    let values: Vec<String> = part.values.iter().map(|(name, value)| format!("{name} = {value}")).collect();
-    let fails = part.trouble.clone().unwrap_or_else(|| "is false".to_string());
-    match values.is_empty() {
-        true => format!("`{}` {fails}", part.text),
-        false => format!("`{}` {fails}: {}", part.text, values.join(", ")),
-    }
 }

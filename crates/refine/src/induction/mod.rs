@@ -20,8 +20,10 @@ use machine::Cause;
 use solve::session::Solvers;
 
 use crate::coupling::Coupling;
+use crate::limited::with_shared_inputs;
+use crate::options::Options;
 use crate::preserve::preserved_by;
-use crate::refine::{Options, Trouble, refine};
+use crate::refine::{Trouble, refine};
 use crate::report::{Progress, Report, Verdict, Why};
 use crate::transfer::Transfer;
 use crate::{ABSTRACT, CONCRETE};
@@ -58,6 +60,7 @@ pub fn prove(
     provers: Provers<'_>,
     watch: &mut dyn FnMut(&Progress) -> bool,
 ) -> Result<Report, Trouble> {
+    let options = &with_shared_inputs(coupling, options);
     let max_pairs = options.max_pairs.min(SEARCHED);
     let searched = Options { max_pairs, max_steps: options.max_steps.min(STEPS), ..options.clone() };
     let mut report = refine(coupling, &searched, watch)?;

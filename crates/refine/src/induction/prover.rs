@@ -16,8 +16,9 @@ use super::proof::{Gap, Origin, Said, Stuck};
 use super::related::{Related, read, related};
 use super::symbolic::{Replacement, Store, Subject, Symbolic, input_location, nowhere};
 use crate::coupling::Coupling;
+use crate::options::Options;
 use crate::product::{Node as GameNode, NodeId};
-use crate::refine::{Options, product};
+use crate::refine::product;
 use crate::report::Vacuous;
 use crate::side::StateId;
 use crate::{ABSTRACT, CONCRETE};
@@ -66,6 +67,10 @@ impl Prover<'_, '_, '_> {
         for side in [ABSTRACT, CONCRETE] {
             let program = &coupling.programs[side];
             let extent = &self.options.extents[side];
+            if let Some(input) = extent.undefined.iter().next() {
+                let what = format!("{}, an input that may be undef", program.function(*input).name);
+                return Err(Gap::Outside(Origin::Side(side), nowhere(&what)).into());
+            }
             let of = Subject {
                 side,
                 program,

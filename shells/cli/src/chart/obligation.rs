@@ -116,8 +116,13 @@ fn proved(shell: &Shell, proof: &OwedProof, asked: Asked) -> Told {
         watch.at(&Progress { states: progress.pairs, queue: progress.queue, ..Progress::default() })
     });
     let timed_out = watch.done();
-    let words =
-        Refinements { models: [&proof.models[0], &proof.models[1]], coupling: &coupling, timed_out, verified: None };
+    let words = Refinements {
+        models: [&proof.models[0], &proof.models[1]],
+        coupling: &coupling,
+        timed_out,
+        all: false,
+        verified: None,
+    };
     let report = match outcome {
         Ok(report) => report,
         Err(_) => return Told::Unknown("the initial states cannot be made".to_string()),
