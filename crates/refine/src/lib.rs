@@ -33,7 +33,7 @@ pub use coupling::{Coupling, Faulty};
 pub use diagram::{Diagram, Diagrams};
 pub use evidence::{Differs, Ended, Instance, Part, Refutation, Run, Segment, Tried};
 pub use fault::IDS;
-pub use induction::proof::{Attempt, Gap, Obligation, Origin, Proof, SOLVERS, Said, Stuck};
+pub use induction::proof::{Attempt, Gap, Known, Obligation, Origin, Proof, SOLVERS, Said, Stuck};
 pub use induction::{Provers, prove};
 pub use layout::format;
 pub use options::{Extent, Options};

@@ -24,6 +24,9 @@ use crate::{ABSTRACT, CONCRETE};
 /// LIMIT: so many pairs of states are compared to find out whether the relation says anything.
 const COMPARED: usize = 1 << 22;
 
+/// Behind so many pairs the game is decided for the first time, and then whenever they have doubled.
+const LOOK: usize = 256;
+
 /// Why nothing can be said.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Trouble {
@@ -121,8 +124,16 @@ fn attempt(
         steps: [ABSTRACT, CONCRETE].map(|side| product.sides[side].steps.0),
     };
     let mut whys = Whys::default();
-    let mut next = 0;
+    let (mut next, mut look_again, mut is_lost) = (0, LOOK, false);
     while next < product.pairs.len() {
+        if next >= look_again {
+            // What is lost whatever comes need not wait for the rest of the search, which may have no end.
+            is_lost = !solve(&product, Rules::of(&product, true)).won;
+            if is_lost {
+                break;
+            }
+            look_again = next * 2;
+        }
         if next as u64 >= options.max_pairs {
             whys.add(Why::Pairs(options.max_pairs));
             break;
@@ -155,7 +166,7 @@ fn attempt(
     for side in &mut product.sides {
         side.ignore_interrupts();
     }
-    let is_complete = whys.0.is_empty();
+    let is_complete = whys.0.is_empty() && !is_lost;
     let mut diagrams = Default::default();
     let verdict = match says(&mut product, is_complete) {
         Says::Nothing(vacuous) => Verdict::Vacuous(vacuous),

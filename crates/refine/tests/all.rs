@@ -2,6 +2,7 @@
 
 mod broken;
 mod induction;
+mod invariants;
 mod naive;
 mod preserved;
 mod small;

@@ -17,31 +17,31 @@ use crate::naive::{changed, machine_of, rule};
 use crate::small::{example, machine, report};
 
 /// The two solvers, if both are there.
-fn both() -> Option<Vec<Installed>> {
+pub fn both() -> Option<Vec<Installed>> {
     let both = solvers(false);
     (both.len() == 2).then_some(both)
 }
 
-fn coupled(one: &Arc<Program>, other: &Arc<Program>, text: &str) -> Coupling {
+pub fn coupled(one: &Arc<Program>, other: &Arc<Program>, text: &str) -> Coupling {
     let text = SourceFile::new("c.refine", text);
     let coupling = Coupling::new([one, other], Some(text), &machine::Limits::default());
     coupling.unwrap_or_else(|faulty| panic!("{:#?}", faulty.faults))
 }
 
-fn proved_by(mut by: Vec<Installed>, coupling: &Coupling, pairs: u64) -> Report {
+pub fn proved_by(mut by: Vec<Installed>, coupling: &Coupling, pairs: u64) -> Report {
     let solvers = by.iter_mut().map(|solver| -> &mut dyn Solvers { solver }).collect();
     let options = Options { max_pairs: pairs, ..Options::default() };
     prove(coupling, &options, Provers { solvers, seconds: 20 }, &mut |_| true).expect("it begins")
 }
 
 /// The report of the solvers alone; none if they are not there.
-fn proved(one: &Arc<Program>, other: &Arc<Program>, coupling: &str) -> Option<Report> {
+pub fn proved(one: &Arc<Program>, other: &Arc<Program>, coupling: &str) -> Option<Report> {
     Some(proved_by(both()?, &coupled(one, other, coupling), 0))
 }
 
 /// The diagrams of a proof; none if there are no solvers.
 #[track_caller]
-fn refines(one: &Arc<Program>, other: &Arc<Program>, coupling: &str) -> Option<Vec<(u32, u32)>> {
+pub fn refines(one: &Arc<Program>, other: &Arc<Program>, coupling: &str) -> Option<Vec<(u32, u32)>> {
     let report = proved(one, other, coupling)?;
     let proof = report.proof.expect("a proof");
     assert_eq!(report.verdict, Verdict::Refines, "{coupling}: {:#?}", proof.gap);
@@ -58,7 +58,7 @@ fn refines_by(one: &Arc<Program>, other: &Arc<Program>, coupling: &str, diagrams
 }
 
 #[track_caller]
-fn stuck(one: &Arc<Program>, other: &Arc<Program>, coupling: &str, at: &str) {
+pub fn stuck(one: &Arc<Program>, other: &Arc<Program>, coupling: &str, at: &str) {
     let Some(report) = proved(one, other, coupling) else { return };
     let proof = report.proof.expect("a proof");
     let Some(Gap::Stuck(index, _)) = &proof.gap else { panic!("{coupling}: {:?} {:#?}", report.verdict, proof.gap) };

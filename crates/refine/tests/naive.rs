@@ -65,9 +65,14 @@ pub fn changed(random: &mut Random, rule: &str) -> String {
 }
 
 pub fn machine_of(rule: &str) -> Arc<Program> {
+    machine_with(rule, "")
+}
+
+/// The same with more definitions before the main rule.
+pub fn machine_with(rule: &str, definitions: &str) -> Arc<Program> {
     let text = format!(
         "asm M\nimport StandardLibrary\nsignature:\ndomain N subsetof Integer\nmonitored go: Boolean\ncontrolled n: N\n\
-         controlled h: Boolean\ndefinitions:\ndomain N = {{0:2}}\nmain rule r_Main = {rule}\n\
+         controlled h: Boolean\ndefinitions:\ndomain N = {{0:2}}\n{definitions}\nmain rule r_Main = {rule}\n\
          default init s0: function n = 0 function h = false\n"
     );
     program("M", &text)

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use program::Program;
-use refine::{Coupling, Ended, Options, Report, Vacuous, Verdict, refine};
+use refine::{CONCRETE, Coupling, Ended, Options, Report, Vacuous, Verdict, refine};
 use syntax::SourceFile;
 use testkit::NoFiles;
 
@@ -311,4 +311,24 @@ fn a_search_that_nobody_waits_for_ends() {
     };
     let found = refine(&coupling, &options, &mut watch).expect("it begins");
     assert_eq!(found.verdict, Verdict::Unknown(vec![refine::Why::Stopped(machine::Cause::Asked)]));
+}
+
+/// The states have no end, so only a look in between tells.
+#[test]
+fn what_is_lost_is_told_though_the_search_has_no_end() {
+    let one = machine("controlled x: Integer", "main rule r_Main = x := x + 1", "function x = 0");
+    let other = machine(
+        "monitored go: Boolean controlled x: Integer",
+        "main rule r_Main = if go then x := x + 1 else skip endif",
+        "function x = 0",
+    );
+    let refutation = refuted(report(&one, &other, None));
+    assert!(matches!(refutation.ended, Ended::Waits(_)), "{refutation:?}");
+    let wrong = machine(
+        "controlled x: Integer",
+        "main rule r_Main = x := if x = 700 then 0 else x + 1 endif",
+        "function x = 0",
+    );
+    let refutation = refuted(report(&one, &wrong, None));
+    assert_eq!(refutation.runs[CONCRETE].steps.len(), 701);
 }

@@ -2,7 +2,7 @@
 //!
 //! In: a proof with the words for it. Out: [`ProofLine`], which stands in the object of the refinement.
 
-use groundstate::refine::{ABSTRACT, CONCRETE, Differs, Gap, Proof, Stuck};
+use groundstate::refine::{ABSTRACT, CONCRETE, Differs, Gap, Known, Proof, SIDES, Stuck};
 use groundstate::tell::{Refinements, said};
 use serde::Serialize;
 
@@ -14,6 +14,9 @@ pub(crate) struct ProofLine {
     solvers: Vec<String>,
     /// What they were asked, in order.
     obligations: Vec<ObligationLine>,
+    /// The invariants of both models.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    invariants: Vec<KnownLine>,
     /// The diagrams that answers use.
     diagrams: Vec<UsedDiagram>,
     /// What decreases while the abstract machine makes no step.
@@ -38,6 +41,18 @@ struct ObligationLine {
     /// What each solver said.
     said: Vec<String>,
     accepted: bool,
+}
+
+/// An invariant: whether it was proved first, and is known of each pair of states.
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+struct KnownLine {
+    model: &'static str,
+    name: String,
+    used: bool,
+    /// Why it is not used.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    reason: Option<String>,
 }
 
 /// A diagram: so many steps of each machine.
@@ -97,11 +112,19 @@ impl ProofLine {
         ProofLine {
             solvers: proof.solvers.clone(),
             obligations: proof.obligations.iter().map(line).collect(),
+            invariants: proof.known.iter().map(KnownLine::of).collect(),
             diagrams: proof.diagrams.iter().map(|(m, n)| UsedDiagram { r#abstract: *m, concrete: *n }).collect(),
             variant: words.coupling.variant(),
             gap: proof.gap.is_some().then(|| words.gap(proof)),
             stuck,
         }
+    }
+}
+
+impl KnownLine {
+    fn of(known: &Known) -> KnownLine {
+        let Known { side, name, unused } = known.clone();
+        KnownLine { model: SIDES[side], name, used: unused.is_none(), reason: unused }
     }
 }
 

@@ -116,6 +116,25 @@ fn a_machine_that_does_more_or_at_the_wrong_time_is_refuted() {
 }
 
 #[test]
+fn what_the_file_beside_the_chart_assumes_is_assumed_and_told() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let folder = folder.path();
+    prepare(folder, CHART, COUNT, "if load > 5 then pieces := 0 endif", COUNT);
+    let path = folder.join("Crane.asm");
+    let model = fs::read_to_string(&path).expect("the model");
+    fs::write(&path, model.replacen("signature:\n", "signature:\n\tmonitored load: Integer\n", 1))
+        .expect("it is written");
+    check(folder, &PROVE, 3, &["not known, in the concrete machine the values of load cannot be enumerated"]);
+    let beside = folder.join("Crane.verify.yaml");
+    fs::write(&beside, "bounds: { load: 0..3 }\n").expect("it is written");
+    check(folder, &PROVE, 0, &["proved (", "assumed load in 0..3, that waiting ends)"]);
+    fs::write(&beside, "bounds: { load: 4..7 }\n").expect("it is written");
+    check(folder, &PROVE, 1, &["refuted, nothing matches step"]);
+    fs::write(&beside, "bounds: { lead: 4..7 }\n").expect("it is written");
+    check(folder, &PROVE, 0, &["open, ", "Crane.verify.yaml has faults: bound"]);
+}
+
+#[test]
 fn a_pattern_of_actions_alone_is_done_in_one_step() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let folder = folder.path();

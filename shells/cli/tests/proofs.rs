@@ -55,6 +55,28 @@ fn both_solvers_prove() {
 }
 
 #[test]
+fn assumptions_and_invariants_are_told() {
+    if solvers(false).len() < 2 {
+        return;
+    }
+    let (code, text) = said("Known.refine", &[], None);
+    assert_eq!(code, Some(0), "{text}");
+    for says in [
+        "  invariants inv_peak (concrete)\n",
+        "  not used   inv_small (concrete): the induction does not prove it\n",
+        "  proved     by induction: 4 obligations, accepted by z3 and cvc5\n",
+    ] {
+        assert!(text.contains(says), "{says}: {text}");
+    }
+    let (code, text) = said("Known.refine", &["--assume", "concrete.reading < 0"], None);
+    assert_eq!(code, Some(0), "{text}");
+    assert!(text.contains("  assumed    reading < 0 (concrete, --assume)\n"), "{text}");
+    let (code, text) = said("Known.refine", &["--assume", "concrete.reading < 0 and concrete.reading > 3"], None);
+    assert_eq!(code, Some(2), "{text}");
+    assert!(text.contains("error[vacuous-refinement]: the assumptions leave reading no value"), "{text}");
+}
+
+#[test]
 fn what_is_not_proved_is_not_refuted() {
     if solvers(false).len() < 2 {
         return;

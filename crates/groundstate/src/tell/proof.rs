@@ -3,7 +3,7 @@
 //! In: a proof, the words for the two models. Out: lines. INVARIANT: a pair of states from which an obligation fails is never called a
 //! counterexample: no run need reach it.
 
-use refine::{ABSTRACT, Attempt, CONCRETE, Gap, Obligation, Origin, Proof, SIDES, Said, Stuck};
+use refine::{ABSTRACT, Attempt, CONCRETE, Gap, Known, Obligation, Origin, Proof, SIDES, Said, Stuck};
 
 use super::{Refinements, plural};
 
@@ -64,16 +64,16 @@ impl Refinements<'_> {
 
     /// The lines about a proof.
     pub(super) fn proof(&self, proof: &Proof) -> Vec<String> {
-        let mut lines = Vec::new();
+        let mut lines = known(proof);
         let accepted = proof.obligations.iter().filter(|obligation| obligation.is_accepted()).count();
         if proof.gap.is_none() {
             let used: Vec<String> = proof.diagrams.iter().map(|(m, n)| format!("{m}:{n}")).collect();
-            if !used.is_empty() {
-                lines.push(format!("  diagrams   {}", used.join(", ")));
-            }
             let senses = proof.obligations.iter().filter(|obligation| obligation.sense).count();
             let count = plural(accepted - senses, "obligation");
-            lines.push(format!("  proved     by induction: {count}, accepted by {}", joined(&solvers(proof))));
+            lines.insert(0, format!("  proved     by induction: {count}, accepted by {}", joined(&solvers(proof))));
+            if !used.is_empty() {
+                lines.insert(0, format!("  diagrams   {}", used.join(", ")));
+            }
             if let Some(variant) = self.coupling.variant() {
                 lines.push(format!("  variant    {variant}"));
             }
@@ -150,10 +150,26 @@ impl Refinements<'_> {
             lines.push("  the variant must be at least 0 there, and less after the step".to_string());
         }
         lines.push(
-            "  if no run reaches this pair, say what holds of those that are reached: `couple TERM;`".to_string(),
+            "  if no run reaches this pair, say what holds of those that are reached: `couple TERM;`, or an invariant"
+                .to_string(),
         );
         lines
     }
+}
+
+/// What is known of every pair by the invariants of the models, and what is not used.
+fn known(proof: &Proof) -> Vec<String> {
+    let (used, unused): (Vec<&Known>, Vec<&Known>) = proof.known.iter().partition(|known| known.unused.is_none());
+    let mut lines = Vec::new();
+    if !used.is_empty() {
+        let names: Vec<String> = used.iter().map(|known| format!("{} ({})", known.name, SIDES[known.side])).collect();
+        lines.push(format!("  invariants {}", names.join(", ")));
+    }
+    for Known { side, name, unused } in unused {
+        let why = unused.clone().unwrap_or_default();
+        lines.push(format!("  not used   {name} ({}): {why}", SIDES[*side]));
+    }
+    lines
 }
 
 fn tried(attempt: &Attempt) -> String {

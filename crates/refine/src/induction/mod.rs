@@ -1,14 +1,15 @@
 //! Refinement by induction: from every pair of states that corresponds, reached or not, each diagram leads to one that corresponds.
 //!
 //! In: a coupling, options, solvers. Out: a [`Report`] whose proof has the obligations as files of SMT-LIB, and what solvers said of each.
-//! Nothing is assumed of a pair but the coupling, the domains and the models' assumptions; and with `segment`, that a segment ends there or
-//! begins a run. A short search by the machines goes before: it has the initial states, and it alone refutes. INVARIANT: *refines* is
+//! Nothing is assumed of a pair but the coupling, the domains, the models' assumptions, and those of their invariants that are proved first;
+//! and with `segment`, that a segment ends there or begins a run. A short search by the machines goes before: it has the initial states, and it alone refutes. INVARIANT: *refines* is
 //! said only if two solvers accept every obligation, and none was left out. Decided in docs/adr/0043.
 
 mod across;
 mod answers;
 mod ask;
 mod diagrams;
+mod invariants;
 pub(crate) mod proof;
 mod prover;
 mod related;
@@ -82,12 +83,14 @@ pub fn prove(
     let progress = report.progress;
     let mut go_on = || watch(&progress) && options.extents.iter().all(|extent| !extent.interrupt.is_raised());
     let ask = Ask { solvers, seconds, go_on: &mut go_on, obligations: Vec::new(), stopped: false };
-    let mut prover = Prover { coupling, options, ask, store: Store::default(), diagrams: Vec::new() };
+    let mut prover =
+        Prover { coupling, options, ask, store: Store::default(), diagrams: Vec::new(), known: Vec::new() };
     let outcome = prover.all();
-    let Prover { ask, diagrams, .. } = prover;
+    let Prover { ask, diagrams, known, .. } = prover;
     let Ask { obligations, stopped, .. } = ask;
     proof.obligations = obligations;
     proof.diagrams = diagrams;
+    proof.known = known;
     let alone = proof.obligations.iter().any(|obligation| !obligation.is_accepted());
     proof.gap = match outcome {
         _ if stopped => Some(Gap::Stopped),

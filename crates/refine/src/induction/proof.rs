@@ -106,6 +106,17 @@ pub enum Gap {
     Stopped,
 }
 
+/// An invariant of one of the models.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Known {
+    /// The model.
+    pub side: usize,
+    /// The invariant.
+    pub name: String,
+    /// Why it is no hypothesis, as a clause; none if it was proved and is one.
+    pub unused: Option<String>,
+}
+
 /// A proof, or how far it came.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Proof {
@@ -113,6 +124,8 @@ pub struct Proof {
     pub solvers: Vec<String>,
     /// In the order in which they were asked.
     pub obligations: Vec<Obligation>,
+    /// The invariants of both models: what of them is known of each pair.
+    pub known: Vec<Known>,
     /// The diagrams that answers use, as numbers of abstract and of concrete steps.
     pub diagrams: Vec<(u32, u32)>,
     /// Why it is not whole, if it is not.

@@ -12,7 +12,7 @@ use solve::shared::{Node, Terms};
 
 use super::ask::{Ask, Model};
 use super::diagrams::{Answer, Diagrams};
-use super::proof::{Gap, Origin, Said, Stuck};
+use super::proof::{Gap, Known, Origin, Said, Stuck};
 use super::related::{Related, read, related};
 use super::symbolic::{Replacement, Store, Subject, Symbolic, input_location, nowhere};
 use crate::coupling::Coupling;
@@ -48,6 +48,7 @@ pub(super) struct Prover<'p, 's, 'w> {
     pub ask: Ask<'s, 'w>,
     pub store: Store,
     pub diagrams: Vec<(u32, u32)>,
+    pub known: Vec<Known>,
 }
 
 /// An initial state of the concrete machine, and one of the abstract machine that corresponds if there is one.
@@ -86,8 +87,10 @@ impl Prover<'_, '_, '_> {
         let machines = [&machines[ABSTRACT], &machines[CONCRETE]];
         self.keeps_no_input(machines[ABSTRACT], &starts[ABSTRACT])?;
         let related = related(coupling, limits, machines, &mut self.store).map_err(outside(Origin::Coupling))?;
-        let hypothesis = self.hypothesis(machines, &related);
         self.begin(machines, &related, &begun)?;
+        let invariants = self.invariants(machines, &related);
+        let hypothesis = self.hypothesis(machines, &related);
+        let hypothesis = self.store.terms.and([hypothesis, invariants]);
         self.sense(machines, &related, hypothesis)?;
         let ends = self.steps(machines, &related, hypothesis)?;
         self.uses(&ends);
@@ -154,7 +157,7 @@ impl Prover<'_, '_, '_> {
     }
 
     /// What is known of a pair of states that diagrams begin in.
-    fn hypothesis(&mut self, machines: [&Symbolic; 2], related: &Related) -> Node {
+    pub fn hypothesis(&mut self, machines: [&Symbolic; 2], related: &Related) -> Node {
         let terms = &mut self.store.terms;
         let coupled = related.perhaps(terms);
         let begins = if related.ends == Terms::TRUE { Terms::TRUE } else { machines[CONCRETE].begins(terms) };

@@ -5,7 +5,7 @@
 //! little, and what the abstract machine can do never too much: where an assumption is neither true nor false, or the machine may do what
 //! is not encoded, the formulas count it against the refinement.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use explore::{Given, Told};
@@ -108,6 +108,8 @@ pub(super) struct Symbolic {
     /// What domains and assumptions say about a state: what surely holds, and what perhaps holds.
     pub surely: Node,
     pub perhaps: Node,
+    /// By invariant of the model: that it surely holds of a state; or a clause that says why that is not translated.
+    pub invariants: Vec<(String, Result<Node, String>)>,
     /// Facts about the inputs.
     pub given: Vec<Node>,
     pub inputs: Vec<Input>,
@@ -125,6 +127,11 @@ impl Symbolic {
     /// What cannot be encoded.
     pub fn of(of: &Subject<'_>, store: &mut Store) -> Result<Symbolic, Outside> {
         let mut partial = BTreeSet::new();
+        // By index of the property: why an invariant is not translated.
+        let mut untold: BTreeMap<usize, String> = BTreeMap::new();
+        let properties = of.program.properties.iter().enumerate();
+        let invariants = properties.filter(|(_, property)| property.kind == PropertyKind::Invariant);
+        let invariants: Vec<usize> = invariants.map(|(index, _)| index).collect();
         loop {
             let mut machine = Machine::new(Arc::clone(of.program), of.limits.clone());
             machine.ignore_interrupts();
@@ -142,7 +149,17 @@ impl Symbolic {
             // Numbers that the concrete machine rounds may be any within the error.
             let exact = of.side != CONCRETE;
             let mut encoder = Encoder::new(machine, of.bounds.clone(), exact, partial.clone());
-            let made = store.lend(&mut encoder, |encoder| encode(encoder, of, &begun))?;
+            let made = match store.lend(&mut encoder, |encoder| encode(encoder, of, &begun, &untold)) {
+                // What an invariant alone looks at may be what cannot be translated.
+                Err(outside) if untold.len() < invariants.len() => {
+                    let why = format!("solvers are not told of {}", outside.what);
+                    invariants.iter().for_each(|index| {
+                        untold.entry(*index).or_insert_with(|| why.clone());
+                    });
+                    continue;
+                }
+                made => made?,
+            };
             if encoder.inexact && exact {
                 return Err(nowhere("real numbers that the abstract machine computes, and rounds"));
             }
@@ -162,7 +179,10 @@ impl Symbolic {
                     symbolic.inputs.retain(|input| store.variable(input.variable).is_some());
                     return Ok(symbolic);
                 }
-                Err(more) => partial.extend(more),
+                Err(Again::Partial(more)) => partial.extend(more),
+                Err(Again::Untold(index, outside)) => {
+                    untold.insert(index, format!("solvers are not told of {}", outside.what));
+                }
             }
         }
     }
@@ -214,10 +234,60 @@ pub(super) fn nowhere(what: &str) -> Outside {
     Outside { what: what.to_string(), span: syntax::Span { file: syntax::FileId(0), start: 0, end: 0 } }
 }
 
-/// The formulas, or the functions that may be undef as well.
-type Made = Result<Symbolic, BTreeSet<FunctionId>>;
+/// Why the formulas have to be made again.
+enum Again {
+    /// These functions may be undef as well.
+    Partial(BTreeSet<FunctionId>),
+    /// The invariant of this index is not translated.
+    Untold(usize, Outside),
+}
 
-fn encode(encoder: &mut Encoder, of: &Subject<'_>, begun: &[FxHashMap<Location, Value>]) -> Result<Made, Outside> {
+/// By invariant, that it surely holds, or why that is not known.
+type Invariants = Vec<(String, Result<Node, String>)>;
+
+/// The invariants of the model, but for those that are `untold`.
+fn invariants(
+    encoder: &mut Encoder,
+    of: &Subject<'_>,
+    untold: &BTreeMap<usize, String>,
+) -> Result<Invariants, (usize, Outside)> {
+    let mut all = Vec::new();
+    for (index, property) in of.program.properties.iter().enumerate() {
+        if property.kind != PropertyKind::Invariant {
+            continue;
+        }
+        let why = match untold.get(&index) {
+            None if property.reads_monitored => Some("it looks at inputs".to_string()),
+            why => why.cloned(),
+        };
+        if let Some(why) = why {
+            all.push((property.name.clone(), Err(why)));
+            continue;
+        }
+        let (was_inexact, inputs) = (encoder.inexact, encoder.inputs.len());
+        let (value, live) = encoder.value(&property.formula, Vec::new()).map_err(|outside| (index, outside))?;
+        let odd = std::mem::take(&mut encoder.beyond);
+        let odd = encoder.terms.or(odd.iter().map(|one| one.0));
+        // A formula over more than the state says nothing of a state.
+        if (encoder.inexact && !was_inexact) || encoder.inputs.len() > inputs {
+            return Err((index, nowhere("what it chooses or rounds")));
+        }
+        let (holds, _) = encoder.truths(&value);
+        let not_odd = encoder.terms.not(odd);
+        all.push((property.name.clone(), Ok(encoder.terms.and([holds, live, not_odd]))));
+    }
+    Ok(all)
+}
+
+/// The formulas, or why they have to be made again.
+type Made = Result<Symbolic, Again>;
+
+fn encode(
+    encoder: &mut Encoder,
+    of: &Subject<'_>,
+    begun: &[FxHashMap<Location, Value>],
+    untold: &BTreeMap<usize, String>,
+) -> Result<Made, Outside> {
     encoder.step()?;
     let mut strays = std::mem::take(&mut encoder.beyond);
     let course = encoder.course();
@@ -245,6 +315,10 @@ fn encode(encoder: &mut Encoder, of: &Subject<'_>, begun: &[FxHashMap<Location, 
         ill.push(encoder.terms.and([course.live, unclear]));
         goes = encoder.terms.and([goes, if is_concrete { possible } else { sure }]);
     }
+    let invariants = match invariants(encoder, of, untold) {
+        Ok(invariants) => invariants,
+        Err((index, outside)) => return Ok(Err(Again::Untold(index, outside))),
+    };
     let mut watched = Vec::new();
     for (input, formula) in of.watched {
         let (value, live) = encoder.value(formula, Vec::new())?;
@@ -311,7 +385,7 @@ fn encode(encoder: &mut Encoder, of: &Subject<'_>, begun: &[FxHashMap<Location, 
         }
     }
     if !more.is_empty() {
-        return Ok(Err(more));
+        return Ok(Err(Again::Partial(more)));
     }
     let typed: Vec<Node> = places.iter().filter(|place| place.kept).map(|place| place.typed).collect();
     let typed = encoder.terms.and(typed);
@@ -328,6 +402,7 @@ fn encode(encoder: &mut Encoder, of: &Subject<'_>, begun: &[FxHashMap<Location, 
         strays,
         surely: encoder.terms.and(surely),
         perhaps: encoder.terms.and(perhaps),
+        invariants,
         given: encoder.given.clone(),
         inputs: encoder.inputs.clone(),
         watched,

@@ -7,11 +7,14 @@ use std::path::Path;
 use groundstate::refine::{Coupling, Options, Verdict, refine};
 use groundstate::tell::Refinements;
 use groundstate::verify::Progress;
-use groundstate::{Owed, OwedProof};
+use groundstate::{Assumptions, Loaded, Owed, OwedProof, assume};
 use syntax::SourceFile;
 
+use crate::failure::Failure;
+use crate::files::read_source;
 use crate::interrupt;
 use crate::shell::Shell;
+use crate::verify::beside::path_of;
 use crate::verify::watch::Watch;
 
 /// LIMIT: the most memory of a proof, in MiB.
@@ -45,6 +48,8 @@ pub enum Told {
         observed: Vec<String>,
         /// Waiting was taken to end.
         waiting: bool,
+        /// What the file beside the chart assumes.
+        assumed: Vec<String>,
     },
     /// It was refuted.
     Refuted {
@@ -64,8 +69,10 @@ impl Told {
             Told::Open(why) => format!("open, {why}"),
             Told::Refined { command } => format!("refined, not proved; `{command}` looks"),
             Told::Differs => "refined, not proved: chart and model differ".to_string(),
-            Told::Proved { pairs, observed, waiting } => {
-                let waiting = if *waiting { ", assumed that waiting ends" } else { "" };
+            Told::Proved { pairs, observed, waiting, assumed } => {
+                let mut taken = assumed.clone();
+                taken.extend(waiting.then(|| "that waiting ends".to_string()));
+                let waiting = if taken.is_empty() { String::new() } else { format!(", assumed {}", taken.join(", ")) };
                 format!(
                     "proved ({}, observed {}{waiting})",
                     crate::check::plural(*pairs as usize, "pair"),
@@ -86,15 +93,36 @@ pub fn told(shell: &Shell, file: &Path, owed: &[Owed], prove: Option<Asked>, dif
             (Err(why), _) => Told::Open(why.clone()),
             (Ok(_), _) if differs => Told::Differs,
             (Ok(_), None) => Told::Refined { command: format!("groundstate chart check {} --prove", file.display()) },
-            (Ok(proof), Some(asked)) => proved(shell, proof, asked),
+            (Ok(proof), Some(asked)) => proved(shell, file, proof, asked),
         });
     }
     all
 }
 
-fn proved(shell: &Shell, proof: &OwedProof, asked: Asked) -> Told {
+/// Both models with what the file beside the chart assumes. They are the chart's: what is assumed of one is assumed of the other.
+fn assumed(shell: &Shell, file: &Path, proof: &OwedProof) -> Result<[Assumptions; 2], Told> {
+    let path = path_of(file);
+    let beside = match read_source(&path, shell.global.limits.max_file_size) {
+        Ok(read) => Some(read),
+        Err(Failure::Missing(_)) => None,
+        Err(_) => return Err(Told::Unknown(format!("{} cannot be read", path.display()))),
+    };
+    let of = |model: &Loaded| {
+        assume(model, beside.as_ref(), &[]).map_err(|trouble| {
+            let message = trouble.1.first().map_or("", |fault| &fault.message);
+            Told::Open(format!("{} has faults: {message}", path.display()))
+        })
+    };
+    Ok([of(&proof.models[0])?, of(&proof.models[1])?])
+}
+
+fn proved(shell: &Shell, file: &Path, proof: &OwedProof, asked: Asked) -> Told {
     let limits = shell.global.limits.uninterrupted();
-    let programs = [&proof.models[0].program, &proof.models[1].program];
+    let all = match assumed(shell, file, proof) {
+        Ok(all) => all,
+        Err(told) => return told,
+    };
+    let programs = [&all[0].model.program, &all[1].model.program];
     let mut text = proof.coupling.text.to_string();
     if asked.waiting {
         text.push_str("allow waiting;\n");
@@ -107,7 +135,8 @@ fn proved(shell: &Shell, proof: &OwedProof, asked: Asked) -> Told {
     interrupt::listen();
     interrupt::bound_memory(MEMORY);
     let mut options = Options::default();
-    for extent in &mut options.extents {
+    for (extent, assumptions) in options.extents.iter_mut().zip(&all) {
+        assumptions.put(extent);
         extent.limits = limits.clone();
         extent.interrupt = interrupt::request().clone();
     }
@@ -117,7 +146,7 @@ fn proved(shell: &Shell, proof: &OwedProof, asked: Asked) -> Told {
     });
     let timed_out = watch.done();
     let words = Refinements {
-        models: [&proof.models[0], &proof.models[1]],
+        models: [&all[0].model, &all[1].model],
         coupling: &coupling,
         timed_out,
         all: false,
@@ -129,7 +158,14 @@ fn proved(shell: &Shell, proof: &OwedProof, asked: Asked) -> Told {
     };
     match &report.verdict {
         Verdict::Refines => {
-            Told::Proved { pairs: report.progress.pairs, observed: proof.observed.clone(), waiting: asked.waiting }
+            let mut assumed: Vec<String> = Vec::new();
+            for (name, from) in report.assumed.iter().map(|assumed| words.assumed_from(assumed)) {
+                if from.is_some() && !assumed.contains(&name) {
+                    assumed.push(name);
+                }
+            }
+            let (pairs, observed) = (report.progress.pairs, proof.observed.clone());
+            Told::Proved { pairs, observed, waiting: asked.waiting, assumed }
         }
         Verdict::DoesNot(refutation) => {
             let report =
