@@ -2,8 +2,8 @@
 //!
 //! In: a coupling, options, solvers. Out: a [`Report`] whose proof has the obligations as files of SMT-LIB, and what solvers said of each.
 //! Nothing is assumed of a pair but the coupling, the domains, the models' assumptions, and those of their invariants that are proved first;
-//! and with `segment`, that a segment ends there or begins a run. A short search by the machines goes before: it has the initial states, and it alone refutes. INVARIANT: *refines* is
-//! said only if two solvers accept every obligation, and none was left out. Decided in docs/adr/0043.
+//! and with `segment`, that a segment ends there or begins a run. A short search by the machines goes before: it has the initial states, and
+//! it alone refutes. INVARIANT: *refines* is said only if two solvers accept every obligation, and none was left out. Decided in docs/adr/0043.
 
 mod across;
 mod answers;
