@@ -161,7 +161,7 @@ corpus: $(GROUNDSTATE) ## make corpus CORPUS=path: compare with recorded results
 	$(CARGO) run --locked --profile quick --package generate --example folder -- $(CORPUS) \
 	    --scripts out/corpus/scripts --log out/corpus/generated.log $(if $(EVERY),--every $(EVERY))
 	sh cpp/install.sh z3 cvc5
-	sh library/refinement/public/refine.sh $(GROUNDSTATE) $(CORPUS)
+	sh bench/refinements/refine.sh $(GROUNDSTATE) $(CORPUS)
 
 update: ## rewrite all golden expectations
 	UPDATE_EXPECT=1 SNAPSHOTS=overwrite TRYCMD=overwrite $(LINTED) $(CARGO) test --workspace --locked --no-fail-fast
