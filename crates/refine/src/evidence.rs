@@ -12,7 +12,7 @@ use rustc_hash::FxHashMap;
 use crate::game::{Lost, Solution};
 use crate::product::{Answers, Deed, Node, NodeId, PairId, Product};
 use crate::side::{Move, StateId};
-use crate::why::why;
+use crate::why::{Differs, Part, why};
 use crate::{ABSTRACT, CONCRETE};
 
 /// LIMIT: so many of the best candidates are told.
@@ -37,35 +37,6 @@ pub struct Segment {
     /// Of the concrete machine.
     pub n: usize,
 }
-
-/// A part of the coupling that does not hold.
-#[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub struct Part {
-    /// As the coupling says it.
-    pub text: String,
-    /// What it looks at, with the values, where that fails.
-    pub values: Differs,
-    /// Instances of a `forall` that do not hold.
-    pub instances: Vec<Instance>,
-    /// So many more instances, or arguments, are not told.
-    pub more: usize,
-    /// Why it is neither true nor false.
-    pub trouble: Option<String>,
-}
-
-/// An instance of a `forall` that does not hold.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Instance {
-    /// The variables.
-    pub bound: Differs,
-    /// What it looks at.
-    pub values: Differs,
-    /// Why it is neither true nor false.
-    pub trouble: Option<String>,
-}
-
-/// Names with values.
-pub type Differs = Vec<(String, String)>;
 
 /// What the abstract machine could have done.
 #[derive(Debug, Clone, PartialEq, Eq)]

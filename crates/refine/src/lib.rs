@@ -31,7 +31,7 @@ mod written;
 
 pub use coupling::{Coupling, Faulty};
 pub use diagram::{Diagram, Diagrams};
-pub use evidence::{Differs, Ended, Instance, Part, Refutation, Run, Segment, Tried};
+pub use evidence::{Ended, Refutation, Run, Segment, Tried};
 pub use fault::IDS;
 pub use induction::proof::{Attempt, Gap, Known, Obligation, Origin, Proof, SOLVERS, Said, Stuck};
 pub use induction::{Provers, prove};
@@ -40,6 +40,7 @@ pub use options::{Extent, Options};
 pub use preserve::Preserved;
 pub use refine::{Trouble, refine};
 pub use report::{Assumed, From, Progress, Report, Vacuous, Verdict, Why};
+pub use why::{Differs, Instance, Part};
 pub use written::{Mapped, Part as WrittenPart, WORDS, Written, read};
 
 /// The abstract machine's place in a pair.

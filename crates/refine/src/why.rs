@@ -7,7 +7,6 @@ use machine::{Location, Show, Value};
 use program::{Binder, Builtin, Quantifier, Term, TermId};
 
 use crate::coupling::{Conjunct, Coupling};
-use crate::evidence::{Differs, Instance, Part};
 use crate::judge::{Bound, Judge, Read};
 use crate::side::{Side, StateId};
 use crate::{ABSTRACT, CONCRETE, SIDES};
@@ -16,6 +15,35 @@ use crate::{ABSTRACT, CONCRETE, SIDES};
 const SHOWN: usize = 4;
 /// LIMIT: so many instances are gone through.
 const INSTANCES: usize = 1 << 16;
+
+/// A part of the coupling that does not hold.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Part {
+    /// As the coupling says it.
+    pub text: String,
+    /// What it looks at, with the values, where that fails.
+    pub values: Differs,
+    /// Instances of a `forall` that do not hold.
+    pub instances: Vec<Instance>,
+    /// So many more instances, or arguments, are not told.
+    pub more: usize,
+    /// Why it is neither true nor false.
+    pub trouble: Option<String>,
+}
+
+/// An instance of a `forall` that does not hold.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Instance {
+    /// The variables.
+    pub bound: Differs,
+    /// What it looks at.
+    pub values: Differs,
+    /// Why it is neither true nor false.
+    pub trouble: Option<String>,
+}
+
+/// Names with values.
+pub type Differs = Vec<(String, String)>;
 
 /// The part of the coupling with this index, of two states.
 pub(crate) fn why(judge: &mut Judge<'_>, sides: &mut [Side; 2], index: usize, states: [StateId; 2]) -> Part {

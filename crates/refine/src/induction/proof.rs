@@ -5,7 +5,7 @@
 
 use solve::Outside;
 
-use crate::evidence::Differs;
+use crate::why::Differs;
 
 /// LIMIT: so many solvers must accept each obligation.
 pub const SOLVERS: usize = 2;

@@ -13,7 +13,7 @@ use super::diagrams::{Answer, Step};
 use super::proof::{Attempt, Stuck};
 use super::symbolic::{Store, Symbolic, input_location};
 use crate::coupling::Coupling;
-use crate::evidence::Differs;
+use crate::why::Differs;
 use crate::{ABSTRACT, CONCRETE};
 
 /// LIMIT: so many of the best candidates are told.
