@@ -12,9 +12,9 @@
 //
 // Locks come last, since a task that hands something over may begin its next cycle, and ask, in the same step.
 //
-// With `Pace::drawn` each phase lasts a part of its modelled time, drawn from a seed, or occasionally far longer; an elaboration of
-// an interval lasts no less than its shortest time. Locks take no time. It is for trying other orders of events. INVARIANT: the program sees nothing of this but the passing of
-// time.
+// With `Pace::drawn` each phase lasts a part of its modelled time, drawn from a seed, or occasionally far longer; an
+// elaboration of an interval lasts no less than its shortest time. Locks take no time. It is for trying other orders of
+// events. INVARIANT: the program sees nothing of this but the passing of time.
 #pragma once
 
 #include <cstdint>

@@ -83,8 +83,8 @@ impl Drop for Owner {
 const ROOM: usize = 64 << 20;
 
 impl Code {
-    /// Compiles for a started machine; none on a processor that Cranelift has no code for, or where there is no room for it. The code notes which rules run if that
-    /// is wanted.
+    /// Compiles for a started machine; none on a processor that Cranelift has no code for, or where there is no room for it.
+    /// The code notes which rules run if that is wanted.
     pub fn compile(program: &Arc<Program>, subject: Subject, core: &Core, notes_rules: bool) -> Option<Code> {
         let mut flags = settings::builder();
         flags.set("opt_level", "speed").ok()?;
