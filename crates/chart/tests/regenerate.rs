@@ -63,6 +63,19 @@ fn nothing_is_lost() {
     }
 }
 
+/// A main rule that is missing comes before the initial state, where it has to be.
+#[test]
+fn a_main_rule_is_added_where_it_belongs() {
+    let before = edited();
+    let (start, end) = (before.find("\tmain rule").expect("a rule"), before.find("// before").expect("a comment"));
+    let without = format!("{}{}", &before[..start], &before[end..]);
+    let after = built(CHART, Some(&without));
+    BY_HAND.iter().for_each(|part| assert!(after.contains(part), "{part} is lost\n{after}"));
+    let faults = syntax::parse_asmetal(FileId(0), &after).diagnostics;
+    assert_eq!(faults, [], "{after}");
+    assert!(after.contains("main rule r_Main ="), "{after}");
+}
+
 #[test]
 fn a_file_with_faults_is_not_touched() {
     let (chart, _) = read(FileId(0), &parse_chart(FileId(0), CHART));

@@ -46,20 +46,24 @@ pub(super) fn into(text: &str, chart: &Chart, parts: &Parts) -> Result<(String, 
             }
         }
     }
-    if let Some(definitions) = definitions {
+    if let Some(definitions) = &definitions {
         if parts.owns {
-            unbounded(&definitions, parts, &mut edits);
+            unbounded(definitions, parts, &mut edits);
         }
-        items(&definitions, &parts.definitions, &mut edits);
+        items(definitions, &parts.definitions, &mut edits);
     }
-    let mut end = String::new();
     if section(&root, MAIN_RULE).is_none() {
-        end.extend(parts.main.iter().map(|main| format!("\n{main}")));
-        if section(&root, INIT).is_none() {
+        // The initial states come behind it.
+        let init = section(&root, INIT);
+        let before_init = definitions.as_ref().filter(|_| init.is_some()).map(|node| trimmed_range(node).end().into());
+        let at = before_init.unwrap_or(text.len());
+        let mut end: String = parts.main.iter().map(|main| format!("\n{main}")).collect();
+        if init.is_none() {
             end.extend(parts.init.iter().map(|init| format!("\n{init}")));
         }
+        let text = if before_init.is_some() { format!("\n{}", end.trim_end()) } else { end };
+        edits.push(Edit { start: at, end: at, text });
     }
-    edits.push(Edit { start: text.len(), end: text.len(), text: end });
     let sections = root.children().filter(|node| matches!(node.kind(), SIGNATURE | DEFINITIONS));
     let there = sections.flat_map(|section| section.children()).filter_map(|node| declared(&node)).collect();
     Ok((apply(text, edits), there))
