@@ -10,8 +10,9 @@ mod agrees;
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use model::{Call, DomainKind, FunctionId, Literal, Model, RuleId, RuleKind, TermKind};
+use model::{Call, DomainKind, FunctionId, Model, RuleId, RuleKind};
 
+use crate::begin::{Initial, UNDEF, initial_value};
 use crate::chart::{Arrow, Chart, Control, End, Machine, Parameter, Shape, ShapeId, ShapeKind, WORDS};
 use crate::defined::always_defined;
 use crate::link::Link;
@@ -20,8 +21,6 @@ use crate::symbolic::{Depth, Effect, Explorer, Guarded, Path, Reason, consistent
 
 /// LIMIT: how many guards, actions and states a machine may have.
 const MAX_SHAPES: usize = 1000;
-/// The value of a control location that is undefined.
-const UNDEF: &str = "undef";
 
 /// The result of an extraction.
 #[derive(Debug)]
@@ -270,7 +269,10 @@ fn machine(
     let declared = model.rule(rule);
     let undef = if always_defined(model, function) { Vec::new() } else { steps[0].1.clone() };
     steps.remove(0);
-    let initial = initial_value(model, function);
+    let initial = match initial_value(model, function) {
+        Some(Initial::Value(value, _)) => Some(value),
+        Some(Initial::Computed(_)) | None => None,
+    };
     // A pattern is entered when undef. A machine that starts in a state and is never left is never undef.
     let leaves = |guarded: &Guarded| matches!(&guarded.effect, Effect::Update { value, .. } if value == "undef");
     let left = steps.iter().flat_map(|(_, effects)| effects).any(|found| is_update_of(found, control) && leaves(found));
@@ -330,22 +332,6 @@ fn does_always(steps: &[(String, Vec<Guarded>)]) -> bool {
 
 fn is_update_of(guarded: &Guarded, control: &str) -> bool {
     matches!(&guarded.effect, Effect::Update { location, .. } if location == control)
-}
-
-/// The literal or undef that a control function has in the default initial state.
-fn initial_value(model: &Model, function: FunctionId) -> Option<String> {
-    let init = &model.inits[model.default_init?];
-    let Some(given) = init.functions.iter().find(|given| given.function == function) else {
-        return Some(UNDEF.to_string());
-    };
-    match &given.definition.body.kind {
-        TermKind::Literal(Literal::Undef) => Some(UNDEF.to_string()),
-        TermKind::Literal(Literal::Enum(domain, index)) => match model.domains.kind(*domain) {
-            DomainKind::Enum { literals } => literals.get(*index as usize).cloned(),
-            _ => None,
-        },
-        _ => None,
-    }
 }
 
 fn name_of(text: &str) -> String {

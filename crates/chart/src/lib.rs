@@ -9,6 +9,7 @@
 pub mod build;
 pub mod import;
 
+mod begin;
 mod chart;
 mod check;
 mod component;

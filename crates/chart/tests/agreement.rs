@@ -57,6 +57,42 @@ fn the_library_does_what_its_charts_say() {
 }
 
 #[test]
+fn a_machine_begins_where_its_chart_does() {
+    let drawn = chart(
+        "chart Lamp machine lamp {r_lamp} control {light} initial state off {OFF} state on {ON} guard pressed {pressed}
+         off -> pressed yes -> on endmachine",
+    );
+    let differs = |main: &str, init: &str| -> Vec<(Severity, String)> {
+        let text = format!(
+            "asm Lamp import StandardLibrary signature: enum domain Light = {{OFF | ON}} controlled light: Light
+             monitored pressed: Boolean definitions:
+             rule r_lamp = if light = OFF and pressed then light := ON endif
+             rule r_twice = par r_lamp[] r_lamp[] endpar
+             main rule r_Main = {main} {init}"
+        );
+        let probed = probed(&drawn, &text).expect("it parses");
+        let faults = chart::check(&drawn, &probed, &checked("Lamp.asm", &probed.text), &mut NoSolver);
+        let told = faults.iter().filter(|fault| fault.id == "chart-differs");
+        told.map(|fault| (fault.severity, fault.message.clone())).collect()
+    };
+    let one = |severity: Severity, message: &str| vec![(severity, message.to_string())];
+    let off = "default init s0: function light = OFF";
+    assert_eq!(differs("r_twice[]", off), []);
+    assert_eq!(differs("forall $x in {1:2} with true do r_lamp[]", off), []);
+    let other = |state: &str| one(Severity::Error, &format!("the chart begins in `OFF`, and the model in `{state}`"));
+    assert_eq!(differs("r_lamp[]", "default init s0: function light = ON"), other("ON"));
+    assert_eq!(differs("r_lamp[]", "default init s0:"), other("undef"));
+    assert_eq!(differs("r_lamp[]", ""), other("undef"));
+    let computed = "that the model begins in `OFF`, as the chart does, was not looked at";
+    let choice = "default init s0: function light = chooseone({OFF, ON})";
+    assert_eq!(differs("r_lamp[]", choice), one(Severity::Warning, computed));
+    let idle = "nothing runs the machine: no rule that runs calls `r_lamp`";
+    assert_eq!(differs("skip", off), one(Severity::Warning, idle));
+    // What nothing runs begins nowhere.
+    assert_eq!(differs("skip", ""), one(Severity::Warning, idle));
+}
+
+#[test]
 fn a_change_of_the_library_is_found() {
     let chart = chart(&text("PatternMachines.chart"));
     let specification = text("PatternMachines.asm");

@@ -29,6 +29,7 @@ mod macros;
 mod model;
 mod names;
 mod overload;
+mod running;
 mod site;
 mod suggest;
 mod unstarted;

@@ -16,6 +16,7 @@ use crate::fault::{self, Faults};
 use crate::id::{FunctionId, RuleId};
 use crate::model::Model;
 use crate::rule::{RuleKind, RuleNode, Target};
+use crate::running::roots;
 use crate::term::{Literal, Term, TermKind};
 
 /// LIMIT: the depth to which definitions of derived functions are followed.
@@ -23,12 +24,12 @@ const DEFINITIONS: usize = 8;
 
 /// Warns of functions that never get a value.
 pub(crate) fn check(model: &Model, faults: &mut Faults) {
-    let Some(main) = model.main else { return };
+    let roots = roots(model);
+    if roots.is_empty() {
+        return;
+    }
     let init = model.default_init.and_then(|index| model.inits.get(index));
     let given = |id: FunctionId| init.is_some_and(|init| init.functions.iter().any(|given| given.function == id));
-    let mut roots: BTreeSet<u32> = init.iter().flat_map(|init| &init.agents).map(|agent| agent.rule.0).collect();
-    roots.insert(main.0);
-    roots.extend(values(model));
     for (index, function) in model.functions.iter().enumerate() {
         let id = FunctionId(index as u32);
         let over_enum =
@@ -45,26 +46,6 @@ pub(crate) fn check(model: &Model, faults: &mut Faults) {
     }
 }
 
-/// Rules that are used as values somewhere: they may run wherever such a value goes.
-fn values(model: &Model) -> BTreeSet<u32> {
-    let mut found = BTreeSet::new();
-    let mut look = |term: &Term| {
-        term.walk(&mut |part| {
-            if let TermKind::Rule(rule) = &part.kind {
-                found.insert(rule.0);
-            }
-        });
-    };
-    for rule in &model.rules {
-        rule.body.walk(&mut |node| node.terms(&mut look));
-    }
-    let initial = model.inits.iter().flat_map(|init| &init.functions).map(|given| &given.definition);
-    for definition in model.functions.iter().filter_map(|function| function.definition.as_ref()).chain(initial) {
-        look(&definition.body);
-    }
-    found
-}
-
 struct Search<'m> {
     model: &'m Model,
     function: FunctionId,
@@ -74,9 +55,9 @@ struct Search<'m> {
 
 impl<'m> Search<'m> {
     /// Whether a rule that can run while the function has no value may give it one.
-    fn can_begin(&mut self, roots: &BTreeSet<u32>) -> bool {
+    fn can_begin(&mut self, roots: &BTreeSet<RuleId>) -> bool {
         let mut seen = roots.clone();
-        let mut open: Vec<&'m RuleNode> = roots.iter().map(|rule| &self.model.rule(RuleId(*rule)).body).collect();
+        let mut open: Vec<&'m RuleNode> = roots.iter().map(|rule| &self.model.rule(*rule).body).collect();
         while let Some(node) = open.pop() {
             let call = match &node.kind {
                 RuleKind::Update { target, .. } if self.sets(target) => return true,
@@ -88,7 +69,7 @@ impl<'m> Search<'m> {
                 if call.arguments.iter().any(|argument| self.is_location(argument)) {
                     return true;
                 }
-                if seen.insert(call.rule.0) {
+                if seen.insert(call.rule) {
                     open.push(&self.model.rule(call.rule).body);
                 }
             }

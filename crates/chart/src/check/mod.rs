@@ -18,6 +18,7 @@ use model::{Checked, FunctionId, Model, RuleId};
 use solve::Solver;
 use syntax::{Diagnostic, Severity, Span, SyntaxKind};
 
+use crate::begin::{self, Otherwise};
 use crate::build::{call, machine_rule, rule_name, state_value};
 use crate::chart::{Chart, Control, Machine, ShapeKind};
 use crate::differ::{by_effect, difference};
@@ -196,6 +197,15 @@ fn one(chart: &Chart, machine: &Machine, probe: &str, model: &Model, faults: &mu
     };
     let location =
         controls(model, probe).into_iter().find(|(id, _)| Some(model.function(*id).name.as_str()) == control);
+    let controlled = location.as_ref().map(|(id, _)| *id);
+    if let Some(otherwise) = begin::otherwise(chart, machine, model, rule, controlled) {
+        let first = machine.initial().map_or(machine.span, |id| machine.shape(id).span);
+        faults.push(match otherwise {
+            Otherwise::NotRun => fault::machine_not_run(place, &name, declared.span),
+            Otherwise::In { drawn, written, place } => fault::other_beginning(first, &drawn, &written, place),
+            Otherwise::Computed { drawn, place } => fault::beginning_not_compared(first, &drawn, place),
+        });
+    }
     let (function, location, origins) = match location {
         Some((id, location)) => (id, location, origins(model, id)),
         None => (FunctionId(u32::MAX), String::new(), vec![String::new()]),

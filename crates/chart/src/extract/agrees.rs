@@ -9,6 +9,7 @@ use syntax::ast::{self, AstNode};
 use syntax::{FileId, Severity};
 
 use super::origins;
+use crate::begin::{self, Otherwise};
 use crate::build::machine_rule;
 use crate::chart::{Chart, Machine};
 use crate::differ::same;
@@ -46,6 +47,12 @@ impl<'m> Judge<'m> {
         let Some(probe) = self.probe(&back, drawn) else {
             return Some("what it says cannot be written in a chart".to_string());
         };
+        // Of a rule that nothing runs, and of a first state that is computed, `chart check` warns.
+        if let Some(Otherwise::In { drawn, written, .. }) =
+            begin::otherwise(&back, drawn, self.model, rule, Some(function))
+        {
+            return Some(format!("its chart would begin in {drawn}, and the model begins in {written}"));
+        }
         let names: Vec<String> = machine.parameters.iter().map(|parameter| parameter.variable.clone()).collect();
         let origins = origins(self.model, function);
         if origins.is_empty() {

@@ -13,3 +13,6 @@ definitions:
 			endswitch
 		endif
 	main rule r_Main = r_lamp[]
+
+default init s0:
+	function light = OFF

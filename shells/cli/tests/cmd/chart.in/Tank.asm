@@ -26,3 +26,6 @@ definitions:
 
 	main rule r_Main =
 		r_tank[]
+
+default init s0:
+	function work = RESTING
