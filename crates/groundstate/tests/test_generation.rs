@@ -7,10 +7,10 @@ use std::sync::Arc;
 
 use groundstate::scenario::{FirstCandidate, Items, Options as Scenario};
 use groundstate::test_generation::{GoalKind, Method, Subject, Tests, generate_tests};
-use groundstate::verify::Options;
+use groundstate::verify::{Options, Reason};
 use groundstate::{Loaded, Suite};
 use syntax::{SourceFile, Span};
-use testkit::{Disk, repository};
+use testkit::{Disk, Texts, repository};
 
 fn example(name: &str) -> PathBuf {
     repository::root().join(format!("{name}.asm"))
@@ -97,6 +97,94 @@ fn the_scenarios_cover_what_is_said() {
         let items = run(&path, &tests);
         assert_eq!(covered(&items), stated(&tests), "{name}");
         assert!(tests.goals.iter().any(|goal| goal.reached), "{name}");
+    }
+}
+
+/// What lies behind states or steps that violate an invariant is not said to be unreachable.
+#[test]
+fn what_violated_invariants_hide_is_not_known() {
+    let reasons = |invariant: &str, assumption: &str| -> Vec<Reason> {
+        let text = format!(
+            "asm Count import StandardLibrary signature: domain N subsetof Integer controlled n: N monitored stop: Boolean \
+             definitions: domain N = {{0:4}} {invariant} {assumption} \
+             main rule r_Main = if n = 3 and not stop then n := 0 else if n < 3 then n := n + 1 endif endif \
+             default init s0: function n = 0"
+        );
+        let loaded = groundstate::load(SourceFile::new("Count.asm", text), &mut Disk)
+            .unwrap_or_else(|faults| panic!("{:#?}", faults.diagnostics));
+        let root = loaded.model.root;
+        let subject = Subject { model: &loaded.model, program: &loaded.program, turns: &[], path: "Count.asm" };
+        let options = Options::default();
+        let tests = generate_tests(subject, &options, Method::Search, &|file| file == root, &mut |_| true);
+        tests.expect("there is an initial state").reasons
+    };
+    assert_eq!(reasons("", ""), []);
+    assert_eq!(reasons("invariant inv_all over n: n <= 3", ""), []);
+    assert_eq!(reasons("invariant inv_few over n: n < 2", ""), [Reason::Unlawful]);
+    assert_eq!(reasons("invariant inv_go over n: n < 3 or not stop", ""), [Reason::Unlawful]);
+    // What an assumption leaves out is not asked for.
+    assert_eq!(reasons("invariant inv_all over n: n <= 3", "INVAR n < 2"), []);
+    assert_eq!(reasons("invariant inv_few over n: n < 2", "INVAR n < 1"), []);
+}
+
+/// A step counts only if it leads to a state that counts: what happens in others has to be seen again, also in steps that are known.
+#[test]
+fn a_step_into_a_violation_reaches_no_goal() {
+    let text = "asm Valve import StandardLibrary signature: enum domain State = {CLOSED | OPEN}
+        monitored wish: State monitored reset: Boolean controlled valve: State controlled lamp: Boolean
+        definitions: invariant inv_closed over valve: valve = CLOSED
+        main rule r_Main = par
+            if reset then lamp := not lamp endif
+            if wish = OPEN then valve := wish endif
+        endpar
+        default init s0: function valve = CLOSED function lamp = false";
+    let loaded = groundstate::load(SourceFile::new("Valve.asm", text), &mut Disk)
+        .unwrap_or_else(|faults| panic!("{:#?}", faults.diagnostics));
+    let root = loaded.model.root;
+    let subject = Subject { model: &loaded.model, program: &loaded.program, turns: &[], path: "Valve.asm" };
+    let options = Options::default();
+    let tests = generate_tests(subject, &options, Method::Search, &|file| file == root, &mut |_| true);
+    let tests = tests.expect("there is an initial state");
+    let folder = repository::root().join("Valve.asm");
+    let mut files = Texts::of([(folder.to_str().expect("text"), text)]);
+    let mut suite = Suite::new();
+    for scenario in &tests.scenarios {
+        let source = SourceFile::new(folder.with_file_name("x.avalla").display().to_string(), scenario.text.as_str());
+        let options = Scenario { coverage: true, ..Scenario::default() };
+        let tested = suite.test(source, &mut files, options, &mut FirstCandidate);
+        assert!(tested.verdict.is_some_and(|verdict| verdict.passed()), "{}", scenario.text);
+    }
+    let missed: Vec<&GoalKind> = tests.goals.iter().filter(|goal| !goal.reached).map(|goal| &goal.kind).collect();
+    // The branch that opens the valve, and its update.
+    assert!(matches!(missed[..], [GoalKind::Branch(_), GoalKind::Update]), "{missed:?}");
+    assert_eq!(tests.reasons, [Reason::Unlawful]);
+    let items = suite.coverage().next().expect("some scenario ran").2;
+    let reached = items.branches.iter().chain(&items.updates).filter(|item| item.covered).count();
+    let said = tests.goals.iter().filter(|goal| goal.reached && !matches!(goal.kind, GoalKind::Rule)).count();
+    assert_eq!(reached, said);
+}
+
+#[test]
+fn conditions_that_nothing_evaluates_are_goals_too() {
+    let text = "asm Oven import StandardLibrary signature: enum domain Mode = {IDLE | FAILED}
+        monitored hot: Boolean monitored cold: Boolean controlled mode: Mode controlled alarm: Boolean
+        definitions: main rule r_Main = par
+            if hot and cold then alarm := true endif
+            if mode = FAILED then if hot or cold then alarm := false endif endif
+        endpar
+        default init s0: function mode = IDLE function alarm = false";
+    let loaded = groundstate::load(SourceFile::new("Oven.asm", text), &mut Disk)
+        .unwrap_or_else(|faults| panic!("{:#?}", faults.diagnostics));
+    let root = loaded.model.root;
+    let subject = Subject { model: &loaded.model, program: &loaded.program, turns: &[], path: "Oven.asm" };
+    for depth in [0, 1, 9] {
+        let options = Options { max_depth: depth, ..Options::default() };
+        let tests = generate_tests(subject, &options, Method::Search, &|file| file == root, &mut |_| true);
+        let goals = tests.expect("there is an initial state").goals;
+        let conditions: Vec<bool> =
+            goals.iter().filter(|goal| goal.kind == GoalKind::Condition).map(|goal| goal.reached).collect();
+        let seen = depth > 0;
+        assert_eq!(conditions, [seen, seen, false, false], "{depth}");
     }
 }
 

@@ -55,7 +55,7 @@ pub use limits::Limits;
 pub use location::{Location, LocationRef};
 pub use machine::{Change, Machine, Snapshot};
 pub use mark::Mark;
-pub use observe::{Observation, Truths, conditions_of};
+pub use observe::{CONDITIONS, Observation, Truths, conditions_of};
 pub use piece::{Edit, Piece};
 pub use print::{BriefValue, Show, ShowValue, element_name};
 pub use step::{Passed, Step};

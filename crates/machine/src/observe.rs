@@ -11,7 +11,7 @@ use rustc_hash::{FxHashMap, FxHashSet};
 use crate::fault::Fault;
 
 /// LIMIT: for a guard with more conditions, only its branches are observed.
-pub(crate) const CONDITIONS: usize = 32;
+pub const CONDITIONS: usize = 32;
 
 /// The truth of the conditions of a guard and of the guard itself.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]

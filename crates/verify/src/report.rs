@@ -34,6 +34,8 @@ pub enum Reason {
     Assumption(usize),
     /// No initial state satisfies the assumptions, so nothing was checked.
     Vacuous,
+    /// States or steps were left out in which an invariant does not hold.
+    Unlawful,
     /// In some state it depends on something that cannot be enumerated.
     Undecided,
     /// It is a property of runs; [`Report::runs`] tells why it is unknown.

@@ -7,8 +7,8 @@
 
 use std::collections::BTreeMap;
 
-use machine::{Observation, Truths, conditions_of};
-use program::{Program, TermId};
+use machine::{CONDITIONS, Observation, Truths, conditions_of};
+use program::{Program, Rule, TermId};
 use syntax::Span;
 
 use crate::survey::surveyor::Sighting;
@@ -25,9 +25,14 @@ pub struct Guard {
 /// A guard and its evaluations.
 type Decided<'s> = (TermId, Vec<(Truths, &'s Sighting)>);
 
-/// The guards that were evaluated in some step, in the order of the text.
+/// All guards with several conditions, evaluated or not, in the order of the text.
 pub fn guards(program: &Program, sightings: &[Sighting]) -> Vec<Guard> {
     let mut decided: BTreeMap<Span, Decided<'_>> = BTreeMap::new();
+    for guard in program.rules.iter().flat_map(|rule| guards_of(program, rule)) {
+        if (2..=CONDITIONS).contains(&conditions_of(program, guard).len()) {
+            decided.entry(program.term_span(guard)).or_insert_with(|| (guard, Vec::new()));
+        }
+    }
     for sighting in sightings.iter().filter(|sighting| sighting.made) {
         if let Observation::Decided(guard, truths) = sighting.observation {
             let entry = decided.entry(program.term_span(guard)).or_insert_with(|| (guard, Vec::new()));
@@ -40,6 +45,16 @@ pub fn guards(program: &Program, sightings: &[Sighting]) -> Vec<Guard> {
         Guard { span, conditions: conditions.iter().enumerate().map(shown).collect() }
     };
     decided.into_iter().map(guard).collect()
+}
+
+/// The guards of a rule, without those of the rules inside.
+fn guards_of(program: &Program, rule: &Rule) -> Vec<TermId> {
+    match rule {
+        Rule::If { guards, .. } => program.term_list(*guards).to_vec(),
+        Rule::While { condition, .. } | Rule::RecursiveWhile { condition, .. } => vec![*condition],
+        Rule::Forall { condition, .. } => condition.iter().copied().collect(),
+        _ => Vec::new(),
+    }
 }
 
 /// The first two evaluations that show that a condition decides.

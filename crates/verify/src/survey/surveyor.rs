@@ -7,9 +7,10 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
-use explore::{Explorer, Interner, Met, Told, Trouble, Truth, Unbounded, Widening};
+use explore::{Explorer, Interner, Met, Outcome, Told, Trouble, Truth, Unbounded, Widening};
 use machine::{Cause, Location, Observation, Value};
 use program::{DomainId, Program};
+use rustc_hash::FxHashSet;
 
 use crate::explorers::widened;
 use crate::options::Options;
@@ -66,6 +67,8 @@ pub struct Survey {
     pub progress: Progress,
     /// Why an event that was not seen may still happen.
     pub reasons: Vec<Reason>,
+    /// Whether some step led to a state that does not count.
+    left_out: bool,
 }
 
 /// Surveys the states of a program. With `lawful`, states and steps that violate an invariant are skipped.
@@ -79,7 +82,11 @@ pub fn survey(
     watch: &mut dyn FnMut(&Progress) -> bool,
 ) -> Result<Survey, NoStart> {
     let plan = plan_for(program, options, lawful);
-    let mut survey = widened(|widening| Surveyor::begin(program, &plan, widening)?.run(watch))?;
+    let mut survey = widened(|widening| Surveyor::begin(program, &plan, widening, Care::Least)?.run(watch))?;
+    if survey.left_out {
+        // Something may have been seen in a step that does not count, and not again where it does.
+        survey = widened(|widening| Surveyor::begin(program, &plan, widening, Care::Most)?.run(watch))?;
+    }
     let mut reasons: BTreeSet<Reason> = survey.reasons.drain(..).collect();
     reasons.extend(survey.stop.map(Reason::Stopped));
     if survey.stop.is_none() && survey.table.len() == 0 {
@@ -93,27 +100,45 @@ pub fn survey(
     Ok(survey)
 }
 
+/// The plan of a survey or a walk: what is `wanted` in it must hold of all that it passes through, as what is `assumed` must.
 pub(crate) fn plan_for(program: &Program, options: &Options, lawful: bool) -> Plan {
     let mut plan = Question::of(program, options).plan;
     plan.settings.observed = true;
-    if lawful {
-        plan.assumed.append(&mut plan.wanted);
-        plan.settings.step_conditions.iter_mut().for_each(|(_, assumed)| *assumed = true);
+    match lawful {
+        true => plan.settings.step_conditions.iter_mut().for_each(|(_, assumed)| *assumed = true),
+        false => {
+            plan.wanted.clear();
+            plan.wanted_steps.clear();
+        }
     }
     plan
 }
 
+/// Which steps are looked at for what happens in them.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Care {
+    /// Those that the machine makes, wherever they lead: enough while each leads to a state that counts.
+    Least,
+    /// All that lead to a state that counts, remembered or not.
+    Most,
+}
+
 struct Surveyor<'p> {
     plan: &'p Plan,
+    care: Care,
+    /// What has been seen by [`Care::Most`], and whether in a step that can be made.
+    seen: FxHashSet<(Observation, bool)>,
     survey: Survey,
     depth: u32,
     transitions: u64,
     /// Whether the truth of an assumption is unknown in some state.
     unclear: bool,
+    /// Whether a state or a step was left out that no assumption excludes, as an invariant does not hold.
+    unlawful: bool,
 }
 
 impl<'p> Surveyor<'p> {
-    fn begin(program: &Arc<Program>, plan: &'p Plan, widening: &Widening) -> Result<Surveyor<'p>, Trouble> {
+    fn begin(program: &Arc<Program>, plan: &'p Plan, widening: &Widening, care: Care) -> Result<Surveyor<'p>, Trouble> {
         let explorer = Explorer::new(program, plan.settings.clone(), widening, &Arc::new(Interner::default()))?;
         let survey = Survey {
             table: Table::new(explorer.words()),
@@ -125,8 +150,10 @@ impl<'p> Surveyor<'p> {
             stop: None,
             progress: Progress::default(),
             reasons: Vec::new(),
+            left_out: false,
         };
-        Ok(Surveyor { plan, survey, depth: 0, transitions: 0, unclear: false })
+        let seen = FxHashSet::default();
+        Ok(Surveyor { plan, care, seen, survey, depth: 0, transitions: 0, unclear: false, unlawful: false })
     }
 
     fn run(mut self, watch: &mut dyn FnMut(&Progress) -> bool) -> Result<Survey, Trouble> {
@@ -155,10 +182,16 @@ impl<'p> Surveyor<'p> {
                 break;
             }
             self.transitions += u64::from(expansion.moved);
-            for seen in self.survey.explorer.sightings() {
-                let (observation, made) = (seen.observation, seen.made);
+            // What an assumption leaves out and what an invariant does are one number.
+            self.unlawful |= expansion.excluded > 0 && !self.plan.wanted_steps.is_empty();
+            let seen = self.survey.explorer.sightings();
+            let seen = match self.care {
+                Care::Least => seen.into_iter().map(|seen| (seen.observation, seen.made, seen.picks)).collect(),
+                Care::Most => self.look_closely(&state)?,
+            };
+            for (observation, made, picks) in seen {
                 let (depth, state) = (self.depth, next as u32);
-                self.survey.sightings.push(Sighting { observation, made, depth, state, picks: seen.picks });
+                self.survey.sightings.push(Sighting { observation, made, depth, state, picks });
             }
             self.take_in(next as u32, &successors);
             next += 1;
@@ -166,6 +199,9 @@ impl<'p> Surveyor<'p> {
         self.survey.progress = self.progress(next);
         if self.unclear {
             self.survey.reasons.push(Reason::Undecided);
+        }
+        if self.unlawful {
+            self.survey.reasons.push(Reason::Unlawful);
         }
         Ok(self.survey)
     }
@@ -202,18 +238,52 @@ impl<'p> Surveyor<'p> {
         }
     }
 
-    /// Adds states that satisfy the assumptions.
-    fn take_in(&mut self, parent: u32, states: &[u64]) {
-        let Survey { explorer, table, parents, met, .. } = &mut self.survey;
-        let mut admitted = Vec::with_capacity(states.len());
-        for state in states.chunks_exact(explorer.words()) {
-            let truths = self.plan.assumed.iter().map(|condition| explorer.truth(*condition, state)).max();
-            match truths {
-                None | Some(Truth::True) => admitted.extend_from_slice(state),
-                Some(Truth::Fault | Truth::Unknown) => self.unclear = true,
-                _ => {}
+    /// What happens for the first time in a step of a state that leads to one that counts, or cannot be made.
+    fn look_closely(&mut self, state: &[u64]) -> Result<Vec<(Observation, bool, Vec<u32>)>, Trouble> {
+        let mut paths = Vec::new();
+        let explorer = &mut self.survey.explorer;
+        explorer.paths(state, &mut |path| paths.push((path.picks, path.outcome))).map_err(Trouble::TooNarrow)?;
+        let mut found = Vec::new();
+        for (picks, outcome) in paths {
+            let made = match outcome {
+                Outcome::Next(next) if self.admits(&next) => true,
+                Outcome::Fault(_) => false,
+                Outcome::Next(_) | Outcome::Unbounded(_) | Outcome::Excluded => continue,
+            };
+            for observation in self.survey.explorer.observe(state, &picks) {
+                if self.seen.insert((observation, made)) {
+                    found.push((observation, made, picks.clone()));
+                }
             }
         }
+        self.survey.explorer.sightings();
+        Ok(found)
+    }
+
+    /// Whether a state counts: it satisfies the assumptions, and the invariants if they are asked for.
+    fn admits(&mut self, state: &[u64]) -> bool {
+        let explorer = &mut self.survey.explorer;
+        let mut truth = |conditions: &[usize]| {
+            let truths = conditions.iter().map(|condition| explorer.truth(*condition, state));
+            truths.max().unwrap_or(Truth::True)
+        };
+        let (assumed, wanted) = (truth(&self.plan.assumed), truth(&self.plan.wanted));
+        let is_unclear = |truth: Truth| matches!(truth, Truth::Fault | Truth::Unknown);
+        self.unclear |= is_unclear(assumed) || assumed == Truth::True && is_unclear(wanted);
+        self.unlawful |= assumed == Truth::True && matches!(wanted, Truth::False | Truth::Undef);
+        assumed == Truth::True && wanted == Truth::True
+    }
+
+    /// Adds states that count.
+    fn take_in(&mut self, parent: u32, states: &[u64]) {
+        let mut admitted = Vec::with_capacity(states.len());
+        for state in states.chunks_exact(self.survey.explorer.words()) {
+            match self.admits(state) {
+                true => admitted.extend_from_slice(state),
+                false => self.survey.left_out = true,
+            }
+        }
+        let Survey { explorer, table, parents, met, .. } = &mut self.survey;
         table.insert_all(&admitted, &mut |state| {
             parents.push(parent);
             explorer.meet(state, met);

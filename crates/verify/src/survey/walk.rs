@@ -134,6 +134,6 @@ impl Wanderer {
 
     fn admits(&mut self, state: &[u64]) -> bool {
         let Wanderer { plan, explorer, .. } = self;
-        plan.assumed.iter().all(|condition| explorer.truth(*condition, state) == Truth::True)
+        plan.assumed.iter().chain(&plan.wanted).all(|condition| explorer.truth(*condition, state) == Truth::True)
     }
 }
