@@ -18,6 +18,9 @@ use crate::joint::{Joint, described, join, joint_name};
 use crate::written::{Part, Written, read};
 use crate::{ABSTRACT, CONCRETE, SIDES};
 
+/// LIMIT: so much of a domain is told in a message.
+const WORDS: usize = 200;
+
 /// What stands for a file if there is none.
 const DEFAULT: &str = "// no coupling file: functions of equal names and domains are equal\n";
 
@@ -141,7 +144,7 @@ impl Builder {
         for function in one.functions.iter().filter(|function| is_state(function)) {
             let Some(there) = other.find_function(&function.name, function.parameters.len()) else { continue };
             let Some(here) = one.find_function(&function.name, function.parameters.len()) else { continue };
-            if is_state(other.function(there)) && self.same_domains(here, there) {
+            if is_state(other.function(there)) && self.other_domain(here, there).is_none() {
                 names.insert((function.name.clone(), [here, there]));
             }
         }
@@ -150,14 +153,19 @@ impl Builder {
         }
     }
 
-    fn same_domains(&self, here: FunctionId, there: FunctionId) -> bool {
-        let [one, other] = &self.coupling.programs;
-        let domains = |program: &Program, function: FunctionId| -> Vec<String> {
-            let function = program.function(function);
-            let all = function.parameters.iter().chain([&function.codomain]);
-            all.map(|domain| described(program, &self.limits, *domain)).collect()
-        };
-        domains(one, here) == domains(other, there)
+    /// The domains of a function's parameters and values, in words.
+    fn domains(&self, side: usize, function: FunctionId) -> Vec<String> {
+        let program = &self.coupling.programs[side];
+        let function = program.function(function);
+        let all = function.parameters.iter().chain([&function.codomain]);
+        all.map(|domain| described(program, &self.limits, *domain)).collect()
+    }
+
+    /// The first domain of a function that is another one in the other machine, in words; none if all are the same.
+    fn other_domain(&self, here: FunctionId, there: FunctionId) -> Option<[String; 2]> {
+        let pairs = self.domains(ABSTRACT, here).into_iter().zip(self.domains(CONCRETE, there));
+        let differing = pairs.map(|(one, other)| [one, other]).find(|[one, other]| one != other);
+        differing.map(|both| both.map(|words| if words.len() > WORDS { shortened(&words) } else { words }))
     }
 
     fn same(&mut self, part: &Part) {
@@ -466,9 +474,9 @@ impl Builder {
                 }
                 continue;
             };
-            if !self.same_domains(id, there) {
-                let why = "has other domains in the concrete machine";
-                self.faults.push(input_not_coupled(start(self.coupling.file), name, why));
+            if let Some([one, other]) = self.other_domain(id, there) {
+                let why = format!("is in {one}, and in the concrete machine in {other}");
+                self.faults.push(input_not_coupled(start(self.coupling.file), name, &why));
                 continue;
             }
             self.share(id, there);
@@ -500,13 +508,8 @@ impl Builder {
         let renamed = mapped.term.text.strip_prefix("concrete.");
         let renamed = renamed.and_then(|name| other.find_function(name, arity));
         if let Some(there) = renamed.filter(|there| is_input(other.function(*there))) {
-            let values = |program: &Program, id: FunctionId| {
-                let function = program.function(id);
-                let all = function.parameters.iter().chain([&function.codomain]);
-                all.map(|domain| described(program, &self.limits, *domain)).collect::<Vec<_>>()
-            };
-            if values(&one, input) != values(&other, there) {
-                let message = "the two inputs have different domains";
+            if let Some([one, other]) = self.other_domain(input, there) {
+                let message = format!("the two inputs have different domains: {one}, and {other}");
                 let place = self.place(&mapped.term);
                 return self.fault(bad_coupling(place, message));
             }
@@ -539,6 +542,11 @@ impl Builder {
             self.coupling.given.push((input.0, formula));
         }
     }
+}
+
+/// The beginning of a text that is too long for a message.
+fn shortened(words: &str) -> String {
+    words.chars().take(WORDS).chain(['…']).collect()
 }
 
 /// Whether a function is part of the state between steps.

@@ -339,26 +339,32 @@ pub(crate) fn join(programs: [&Program; 2], limits: &Limits) -> Result<Joint, St
     Ok(Joint { model, program, sources, bridges, of })
 }
 
-/// Whether the elements of a domain are fixed and can all be written.
-pub(crate) fn is_listed(program: &Program, limits: &Limits, domain: DomainId) -> bool {
+/// The elements of a domain as a model writes them, if they are fixed and can all be written.
+pub(crate) fn listed(program: &Program, limits: &Limits, domain: DomainId) -> Option<Vec<String>> {
     let mut machine = Machine::new(std::sync::Arc::new(program.clone()), limits.clone());
-    written_elements(program, &mut machine, domain).is_some()
+    written_elements(program, &mut machine, domain)
 }
 
-/// What a domain is, for comparing it with one of another program: equal texts are equal domains.
+/// What a domain is, for comparing it with one of another program: equal texts are equal domains. Literals and elements are what their
+/// names say, in whatever order.
 pub(crate) fn described(program: &Program, limits: &Limits, domain: DomainId) -> String {
     let parts = |domains: &[DomainId]| {
         let parts: Vec<String> = domains.iter().map(|part| described(program, limits, *part)).collect();
         parts.join(",")
     };
     let kind = program.domain(domain);
+    let sorted = |names: &[String]| {
+        let names: BTreeSet<&str> = names.iter().map(String::as_str).collect();
+        names.into_iter().collect::<Vec<_>>().join(" | ")
+    };
     match &kind.kind {
-        DomainKind::Enum { literals } => format!("{}{{{}}}", kind.name, literals.join("|")),
-        DomainKind::Abstract { elements, .. } => format!("{}{{{}}}", kind.name, elements.join("|")),
+        DomainKind::Enum { literals: names } | DomainKind::Abstract { elements: names, .. } => {
+            format!("{} {{{}}}", kind.name, sorted(names))
+        }
         DomainKind::Concrete { base, .. } => {
             let mut machine = Machine::new(std::sync::Arc::new(program.clone()), limits.clone());
             let elements = written_elements(program, &mut machine, domain).unwrap_or_default();
-            format!("{}<{}{{{}}}", kind.name, described(program, limits, *base), elements.join("|"))
+            format!("{} {{{}}} of {}", kind.name, sorted(&elements), described(program, limits, *base))
         }
         DomainKind::Prod(of) => format!("Prod({})", parts(of)),
         DomainKind::Seq(of) => format!("Seq({})", parts(&[*of])),

@@ -100,6 +100,7 @@ fn begun<'c>(
             Err(explore::Trouble::Interrupted(cause)) => return Err(Trouble::Stopped(cause)),
         };
         made.shared = coupling.shared[side].clone();
+        made.most = options.max_steps;
         sides.push(made);
     }
     let Ok(sides) = <[Side; 2]>::try_from(sides) else { unreachable!("there are two sides") };
@@ -155,6 +156,10 @@ fn attempt(
             None => match product.explore(next as u32) {
                 Ok(()) => next += 1,
                 Err(Stopped::Narrow(side, widening)) => return Ok(Err((side, widening))),
+                Err(Stopped::Many) => {
+                    whys.add(Why::Steps(options.max_steps));
+                    break;
+                }
                 Err(Stopped::Interrupted) => {
                     whys.add(Why::Stopped(asked(ABSTRACT).or(asked(CONCRETE)).unwrap_or(Cause::Asked)));
                     break;
@@ -168,31 +173,32 @@ fn attempt(
     }
     let is_complete = whys.0.is_empty() && !is_lost;
     let mut diagrams = Default::default();
-    let verdict = match says(&mut product, is_complete) {
+    let said = says(&mut product, is_complete);
+    let hopeful = solve(&product, Rules::of(&product, true));
+    let bounded = of_proof(&product, &options.extents);
+    // With other values of its inputs the abstract machine might have had an answer.
+    let lacking = if hopeful.won { Vec::new() } else { of_refutation(&product, &options.extents) };
+    let verdict = match said {
+        _ if !lacking.is_empty() => Verdict::Unknown(lacking),
+        Says::Nothing(vacuous @ (Vacuous::NoStart(_) | Vacuous::NoInitialPair(_))) => Verdict::Vacuous(vacuous),
+        // What cannot be answered is a fault, whatever else the coupling says.
+        _ if !hopeful.won => Verdict::DoesNot(Box::new(evidence::refutation(&mut product, &hopeful))),
+        // With other values of inputs there may be states that it tells apart.
+        Says::Nothing(_) if !bounded.is_empty() => Verdict::Unknown(bounded),
         Says::Nothing(vacuous) => Verdict::Vacuous(vacuous),
         said @ (Says::Something | Says::Perhaps(_)) => {
-            let hopeful = solve(&product, Rules::of(&product, true));
-            let lacking = if hopeful.won { Vec::new() } else { of_refutation(&product, &options.extents) };
-            if !lacking.is_empty() {
-                // With other values of its inputs it might have had an answer.
-                Verdict::Unknown(lacking)
-            } else if !hopeful.won {
-                Verdict::DoesNot(Box::new(evidence::refutation(&mut product, &hopeful)))
-            } else {
-                let sure = solve(&product, Rules::of(&product, false));
-                let bounded = of_proof(&product, &options.extents);
-                bounded.iter().for_each(|why| whys.add(*why));
-                if sure.won {
-                    diagrams = evidence::used(&product, &sure);
-                }
-                match (sure.won, said) {
-                    (true, _) if !bounded.is_empty() => Verdict::Unknown(bounded),
-                    (true, Says::Perhaps(pairs)) => Verdict::Unknown(vec![Why::Undistinguished(pairs)]),
-                    (true, _) => Verdict::Refines,
-                    (false, _) => {
-                        unclear(&product, &mut whys);
-                        Verdict::Unknown(whys.0)
-                    }
+            let sure = solve(&product, Rules::of(&product, false));
+            bounded.iter().for_each(|why| whys.add(*why));
+            if sure.won {
+                diagrams = evidence::used(&product, &sure);
+            }
+            match (sure.won, said) {
+                (true, _) if !bounded.is_empty() => Verdict::Unknown(bounded),
+                (true, Says::Perhaps(pairs)) => Verdict::Unknown(vec![Why::Undistinguished(pairs)]),
+                (true, _) => Verdict::Refines,
+                (false, _) => {
+                    unclear(&product, &mut whys);
+                    Verdict::Unknown(whys.0)
                 }
             }
         }

@@ -6,6 +6,7 @@
 
 use std::collections::BTreeSet;
 use std::hash::{Hash, Hasher};
+use std::ops::ControlFlow;
 use std::rc::Rc;
 use std::sync::Arc;
 
@@ -14,6 +15,7 @@ use machine::{Fault, FaultKind, Interrupt, Location, Value};
 use program::{Expression, FunctionId, Program, PropertyKind};
 use rustc_hash::{FxHashMap, FxHashSet};
 
+use crate::CONCRETE;
 use crate::joint::Bridge;
 use crate::limited::limited;
 use crate::options::Extent;
@@ -86,6 +88,8 @@ pub(crate) enum Stopped {
     Narrow(usize, Widening),
     /// Whoever waits has had enough.
     Interrupted,
+    /// One state has more steps than may be made.
+    Many,
 }
 
 /// One of the two machines.
@@ -113,6 +117,8 @@ pub(crate) struct Side {
     looked_at: BTreeSet<FunctionId>,
     /// How many different steps there are, and how many change the state.
     pub steps: (u64, u64),
+    /// The most steps of one state that are gone through.
+    pub most: u64,
 }
 
 impl Side {
@@ -157,6 +163,7 @@ impl Side {
             limited: limited(program, extent),
             looked_at: BTreeSet::new(),
             steps: (0, 0),
+            most: u64::MAX,
         })
     }
 
@@ -210,8 +217,14 @@ impl Side {
         number
     }
 
+    /// Whether the assumptions hold in a state. One that cannot be evaluated counts against a refinement: such a state of the concrete machine
+    /// has to be answered, and one of the abstract machine is no answer.
     fn is_assumed(&mut self, state: &[u64]) -> bool {
-        (0..self.assumed).all(|condition| self.explorer.truth(condition, state) != Truth::False)
+        (0..self.assumed).all(|condition| match self.explorer.truth(condition, state) {
+            Truth::True => true,
+            Truth::False | Truth::Undef => false,
+            Truth::Fault | Truth::Unknown => self.place == CONCRETE,
+        })
     }
 
     /// The initial states, each with the inputs that it read.
@@ -279,10 +292,63 @@ impl Side {
         if let Some(known) = &self.moves[state as usize] {
             return Ok(Rc::clone(known));
         }
+        let moves = match self.unlabelled(state, given)? {
+            Some(moves) => moves,
+            None => self.labelled(state, given, inputs, bridge)?,
+        };
+        self.steps.0 += moves.len() as u64;
+        self.steps.1 += moves.iter().filter(|made| made.goal != Goal::State(state)).count() as u64;
+        let moves: Rc<[Move]> = moves.into();
+        self.moves[state as usize] = Some(Rc::clone(&moves));
+        Ok(moves)
+    }
+
+    /// The steps of a state, as a search makes them: remembered or compiled. None if somebody has to know more of a step than where it leads.
+    fn unlabelled(&mut self, state: StateId, given: &[(u32, u32)]) -> Result<Option<Vec<Move>>, Stopped> {
+        let reads = !self.shared.is_empty() || !self.watched.is_empty() || !self.limited.is_empty();
+        if reads || self.most < u64::MAX {
+            return Ok(None);
+        }
+        let (packed, mut successors) = (self.packed(state), Vec::new());
+        let expansion = match self.explorer.expand(&packed, &mut successors) {
+            Err(widening) => return Err(Stopped::Narrow(self.place, widening)),
+            Ok(expansion) if expansion.interrupted => return Err(Stopped::Interrupted),
+            Ok(expansion) => expansion,
+        };
+        if expansion.faults != [0; 3] || expansion.unbounded > 0 {
+            return Ok(None);
+        }
+        let mut label = given.to_vec();
+        label.sort_unstable();
+        let label: Label = label.into();
+        let mut moves = Vec::new();
+        let mut seen = FxHashSet::default();
+        let stays = (expansion.stayed > 0).then_some(&*packed);
+        for next in successors.chunks_exact(packed.len().max(1)).chain(stays) {
+            if seen.insert(next) && self.is_assumed(next) {
+                moves.push(Move { label: Rc::clone(&label), goal: Goal::State(self.number(next.into())) });
+            }
+        }
+        Ok(Some(moves))
+    }
+
+    /// The same, with the inputs of each step, by the machine.
+    fn labelled(
+        &mut self,
+        state: StateId,
+        given: &[(u32, u32)],
+        inputs: &mut Inputs,
+        bridge: &Bridge,
+    ) -> Result<Vec<Move>, Stopped> {
         let packed = self.packed(state);
         let mut paths = Vec::new();
-        let whole = self.explorer.paths(&packed, &mut |path| paths.push((path.inputs, path.failed, path.outcome)));
+        let most = self.most;
+        let whole = self.explorer.paths_until(&packed, &mut |path| {
+            paths.push((path.inputs, path.failed, path.outcome));
+            if paths.len() as u64 > most { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        });
         match whole {
+            Ok(true) if paths.len() as u64 > most => return Err(Stopped::Many),
             Err(widening) => return Err(Stopped::Narrow(self.place, widening)),
             Ok(false) => return Err(Stopped::Interrupted),
             Ok(true) => {}
@@ -313,13 +379,9 @@ impl Side {
             };
             let made = Move { label, goal };
             if seen.insert(made.clone()) {
-                self.steps.0 += 1;
-                self.steps.1 += u64::from(made.goal != Goal::State(state));
                 moves.push(made);
             }
         }
-        let moves: Rc<[Move]> = moves.into();
-        self.moves[state as usize] = Some(Rc::clone(&moves));
         Ok(moves)
     }
 

@@ -16,7 +16,7 @@ use program::{
 
 use crate::coupling::Coupling;
 use crate::determined::{Determined, Equation, Known};
-use crate::joint::{described, is_listed};
+use crate::joint::{described, listed};
 use crate::{ABSTRACT, CONCRETE};
 
 /// LIMIT: so many terms are written for one property.
@@ -322,7 +322,7 @@ impl<'c> Translation<'c> {
             let fixed = |program: &Program, id: DomainId| match program.domain(id).kind {
                 DomainKind::Basic(model::Basic::Boolean) | DomainKind::Enum { .. } => true,
                 DomainKind::Abstract { dynamic, .. } => !dynamic,
-                DomainKind::Concrete { dynamic, .. } => !dynamic && is_listed(program, &self.limits, id),
+                DomainKind::Concrete { dynamic, .. } => !dynamic && listed(program, &self.limits, id).is_some(),
                 _ => false,
             };
             let mut all = (0..).map(DomainId).zip(&concrete.domains);
@@ -417,10 +417,7 @@ impl<'c> Translation<'c> {
                 match (literal, &program.domain(*domain).kind) {
                     (Literal::Undef, _) => false,
                     (Literal::Integer(number), DomainKind::Concrete { .. }) => {
-                        is_listed(program, &self.limits, *domain)
-                            && described(program, &self.limits, *domain).rsplit_once('{').is_some_and(|(_, listed)| {
-                                listed.trim_end_matches('}').split('|').any(|one| one == number.to_string())
-                            })
+                        listed(program, &self.limits, *domain).is_some_and(|all| all.contains(&number.to_string()))
                     }
                     (_, DomainKind::Concrete { .. }) => false,
                     _ => true,

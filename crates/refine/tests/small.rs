@@ -192,6 +192,62 @@ fn a_question_that_says_nothing() {
     );
 }
 
+/// A step that cannot be made is a refutation, whatever the coupling says; and of a few values of an input nothing follows for all.
+#[test]
+fn what_says_nothing_of_some_values_hides_no_fault() {
+    let signature = "domain N subsetof Integer controlled x: N controlled warned: Boolean monitored go: Boolean";
+    let with =
+        |rule: &str| machine(signature, &format!("domain N = {{0:1}} main rule r_Main = {rule}"), "function x = 0");
+    let (one, faulty) =
+        (with("if go then x := 1 endif"), with("par if go then x := 1 endif if warned then skip endif endpar"));
+    let bounded = |other: &Arc<Program>| {
+        let text = Some(SourceFile::new("c.refine", "same x;"));
+        let coupling = Coupling::new([&one, other], text, &machine::Limits::default()).expect("no faults");
+        let mut options = Options::default();
+        for (side, program) in [&one, other].into_iter().enumerate() {
+            let go = program.find_function("go", 0).expect("an input");
+            options.extents[side].bounds.insert(go, vec![machine::Value::Boolean(false)]);
+        }
+        refine(&coupling, &options, &mut |_| true).expect("it begins").verdict
+    };
+    assert!(matches!(bounded(&faulty), Verdict::DoesNot(_)), "{:?}", bounded(&faulty));
+    assert!(matches!(bounded(&one), Verdict::Unknown(_)), "{:?}", bounded(&one));
+}
+
+/// Enumerations with the same literals in another order are the same; what differs is told.
+#[test]
+fn literals_are_compared_by_their_names() {
+    let answers = |literals: &str| {
+        let signature = format!("enum domain Answer = {{{literals}}} monitored answer: Answer controlled last: Answer");
+        machine(&signature, "main rule r_Main = last := answer", "function last = YES")
+    };
+    let one = answers("YES | NO");
+    assert_eq!(report(&one, &answers("NO | YES"), None).verdict, Verdict::Refines);
+    let text = Some(SourceFile::new("c.refine", "same last;"));
+    let Err(faulty) = Coupling::new([&one, &answers("NO | YES | SKIP")], text, &machine::Limits::default()) else {
+        panic!("the inputs have other domains");
+    };
+    let messages: Vec<&str> = faulty.faults.iter().map(|fault| &*fault.message).collect();
+    let expected = "the abstract machine's input answer is in Answer {NO | YES}, and in the concrete machine in \
+                    Answer {NO | SKIP | YES}";
+    assert_eq!(messages, [expected]);
+}
+
+/// An assumption that is undef in a state leaves the state out, as in a verification.
+#[test]
+fn what_is_undef_is_not_assumed() {
+    let signature = "domain N subsetof Integer controlled n: N controlled m: N";
+    let text = |rule: &str, invar: &str| {
+        machine(signature, &format!("domain N = {{0:3}} {invar} main rule r_Main = {rule}"), "function n = 0")
+    };
+    let one = text("choose $x in N with true do n := $x", "INVAR n = 0 or m = 0");
+    let other = text("choose $x in {0, 1} with true do n := $x", "");
+    assert!(matches!(report(&one, &other, Some("same n;")).verdict, Verdict::DoesNot(_)));
+    let assumed = text("choose $x in {0, 1} with true do n := $x", "INVAR n = 0 or m = 0");
+    let verdict = report(&one, &assumed, Some("same n;")).verdict;
+    assert!(!matches!(verdict, Verdict::DoesNot(_)), "{verdict:?}");
+}
+
 #[test]
 fn a_segment_that_no_diagram_has_is_refuted() {
     let one = counter("n := (n + 1) mod 4");

@@ -27,7 +27,7 @@ use crate::solver::Process;
 use crate::verify::beside::path_of;
 use crate::verify::watch::Watch;
 
-/// The time limit for each question to a solver, in seconds.
+/// The time limit for each question to a solver, in seconds, where none is given for the whole.
 const SECONDS: u32 = 60;
 
 /// Arguments of `refine`.
@@ -138,7 +138,11 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     let cancel = Cancel::from(interrupt::request().clone());
     let started = match arguments.method {
         Method::Explicit => job::refine(coupling, options, cancel),
-        Method::Induction => job::prove(coupling, options, solvers()?, SECONDS, cancel),
+        // All questions together end with the time.
+        Method::Induction => {
+            let seconds = arguments.time.map_or(SECONDS, |time| u32::try_from(time).unwrap_or(u32::MAX));
+            job::prove(coupling, options, solvers()?, seconds, cancel)
+        }
     };
     let job = started.map_err(|error| Failure::usage(format!("the search cannot be started: {error}")))?;
     while let Some(RefineEvent(progress)) = job.next_event() {
