@@ -352,6 +352,17 @@ fn a_chart_without_a_model_is_not_compared() {
     check(folder.path(), &["chart", "check", "Lamp.chart", "--model", "Other.asm"], 2, "there is no file Other.asm");
 }
 
+/// What stands beside a model and cannot be read was meant to be something.
+#[cfg(unix)]
+#[test]
+fn a_link_to_nowhere_is_no_missing_file() {
+    let folder = folder();
+    write(folder.path(), "Count.asm", model("Count", "x := (x + 1) mod 3"));
+    check(folder.path(), &["verify", "Count.asm"], 0, "holds");
+    std::os::unix::fs::symlink("Gone.yaml", folder.path().join("Count.verify.yaml")).expect("a link");
+    check(folder.path(), &["verify", "Count.asm"], 2, "Count.verify.yaml");
+}
+
 #[test]
 fn check_takes_all_that_a_project_is_made_of() {
     let folder = folder();
