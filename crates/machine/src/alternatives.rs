@@ -21,6 +21,12 @@ pub trait Alternatives {
     /// Which of `of` alternatives is taken, from 0. Where they are `guarded`, `of` itself says that none of them is alive.
     fn ask(&mut self, of: usize, guarded: bool) -> usize;
 
+    /// How many questions have been asked so far.
+    fn asked(&self) -> usize;
+
+    /// The questions from this one on are asked again, those before are not.
+    fn ask_from(&mut self, question: usize);
+
     /// The alternative taken is none: its guard does not hold.
     fn be_dead(&mut self);
 

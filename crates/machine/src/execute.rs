@@ -17,6 +17,7 @@ use crate::membership::Membership;
 use crate::memo::Memo;
 use crate::observe::Observations;
 use crate::store::Store;
+use crate::trail::Trail;
 use crate::update::Updates;
 use crate::value::Value;
 use crate::weighed::Items;
@@ -92,6 +93,8 @@ pub(crate) struct Core {
     pub compacted: usize,
     /// By choose rule, as far as it is known: whether its alternative is selected before its guards are evaluated.
     pub asked_first: Vec<Option<bool>>,
+    /// What the last start has set, where others follow it.
+    pub trail: Option<Box<Trail>>,
 }
 
 /// The choices made in a step, so that it makes the same ones if it is started again.

@@ -110,6 +110,12 @@ impl Machine {
         self.core.origin = Some(Box::new(origin));
     }
 
+    /// The locations that may have other values than after the start before, if [`Machine::start_again`] has evaluated only these
+    /// anew; and how many inputs, the first, are the same.
+    pub fn changed_by_start(&self) -> Option<(&[LocationIndex], usize)> {
+        self.core.trail.as_ref().and_then(|trail| trail.changed())
+    }
+
     /// Whether a function has initial values.
     pub fn has_initial(&self, function: FunctionId) -> bool {
         self.core.initials[function.0 as usize].is_some()

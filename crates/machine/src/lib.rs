@@ -39,6 +39,7 @@ mod stage;
 mod start;
 mod step;
 mod store;
+mod trail;
 mod update;
 mod value;
 mod watch;

@@ -16,6 +16,7 @@ use crate::location::{Location, LocationRef};
 use crate::start::AT_START;
 use crate::step::Step;
 use crate::store::Store;
+use crate::trail::Trail;
 use crate::value::Value;
 use crate::work::Work;
 
@@ -116,7 +117,42 @@ impl Machine {
         self.core.epoch = AT_START;
         self.core.origin = None;
         (self.core.compacted, self.core.iterations) = (0, 0);
+        self.core.choices.forget();
         self.execute(environment, |executor, _| executor.start())
+    }
+
+    /// The same right after another start, with the same answers to its first questions, `kept` of them. Evaluates anew only what
+    /// the other answers may change.
+    ///
+    /// # Errors
+    /// An initial value that cannot be evaluated.
+    pub fn start_again(
+        &mut self,
+        blank: &Snapshot,
+        kept: usize,
+        environment: &mut dyn Environment,
+    ) -> Result<(), Fault> {
+        match self.core.trail.take() {
+            None => {
+                self.core.trail = Some(Box::new(Trail::new(&self.program)));
+                self.start_from(blank, environment)
+            }
+            Some(trail) if !trail.goes_on() => {
+                let outcome = self.start_from(blank, environment);
+                self.core.trail = Some(trail);
+                outcome
+            }
+            trail => {
+                self.core.trail = trail;
+                self.core.choices.forget();
+                self.execute(environment, |executor, _| executor.start_again(kept))
+            }
+        }
+    }
+
+    /// No start follows the last one any more.
+    pub fn end_starts(&mut self) {
+        self.core.trail = None;
     }
 
     /// How many steps have been committed since the start.
@@ -257,8 +293,13 @@ impl Machine {
 
     /// The values that the environment gave since inputs were last forgotten, in the order asked.
     pub fn inputs(&self) -> Vec<(Location, Value)> {
-        let store = &self.core.store;
-        self.core.inputs.iter().map(|(i, _)| (store.location(*i), store.values[*i as usize].clone())).collect()
+        self.inputs_from(0)
+    }
+
+    /// The same without the first ones, so many.
+    pub fn inputs_from(&self, first: usize) -> Vec<(Location, Value)> {
+        let (store, inputs) = (&self.core.store, &self.core.inputs[first..]);
+        inputs.iter().map(|(i, _)| (store.location(*i), store.values[*i as usize].clone())).collect()
     }
 
     /// Forgets the values of all monitored locations and of the clock, so that a step asks for them again.

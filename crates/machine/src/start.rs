@@ -64,6 +64,7 @@ impl Core {
             shared: program.functions.iter().any(|function| function.kind == FunctionKind::Shared),
             compacted: 0,
             asked_first: Vec::new(),
+            trail: None,
         };
         core.reset_carriers(program);
         Executor { program, core: &mut core, environment: &mut Closed, limits }.fill_contents();
@@ -155,14 +156,17 @@ impl<'a> Executor<'a> {
         for (index, initial) in program.initials.iter().enumerate() {
             self.core.initials[initial.function.0 as usize] = Some(index as u32);
         }
-        for initial in &program.initials {
+        let sparse = self.core.store.sparse_len();
+        for (index, initial) in program.initials.iter().enumerate() {
             if program.function(initial.function).kind == FunctionKind::Monitored {
                 // The environment is asked, unless it leaves the initial value in force: see `Executor::ask`.
                 continue;
             }
-            if let Some(tuples) = self.argument_tuples(initial.function, initial.span) {
-                for arguments in &tuples {
-                    self.read_initial(initial.function, arguments, initial.span)?;
+            let follows = self.core.trail.as_ref().is_some_and(|trail| trail.depends(initial.function));
+            for arguments in self.argument_tuples(initial.function, initial.span).unwrap_or_default() {
+                match follows {
+                    true => self.add_place(index, arguments)?,
+                    false => _ = self.read_initial(initial.function, &arguments, initial.span)?,
                 }
             }
         }
@@ -175,6 +179,7 @@ impl<'a> Executor<'a> {
             let kind = matches!(declared.kind, Controlled | Out | Local);
             self.core.plain[index] = kind && declared.element.is_none() && !self.core.exploring;
         }
+        self.end_trail(sparse);
         Ok(())
     }
 
@@ -289,10 +294,19 @@ impl<'a> Executor<'a> {
         let value = self.in_initial_state(|this| {
             this.in_frame(start, initial.value.frame, span, |this| this.evaluate(initial.value.body))
         })?;
-        let index = self.core.store.number(function, arguments) as usize;
-        self.core.store.values[index] = value.clone();
-        self.core.store.given[index] = self.core.epoch;
-        self.core.store.touch();
+        let index = self.core.store.number(function, arguments);
+        self.set_initial(index, function, value.clone());
         Ok(value)
+    }
+
+    /// Gives a location its initial value.
+    pub fn set_initial(&mut self, location: u32, function: FunctionId, value: Value) {
+        let Core { store, trail, epoch, .. } = &mut *self.core;
+        store.values[location as usize] = value;
+        store.given[location as usize] = *epoch;
+        store.touch();
+        if let Some(trail) = trail {
+            trail.note(location, function);
+        }
     }
 }

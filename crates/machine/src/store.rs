@@ -16,7 +16,7 @@ use crate::location::{Location, LocationRef};
 use crate::value::Value;
 
 /// The elements of a dynamic domain.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
+#[derive(Debug, Default, PartialEq, Eq)]
 pub(crate) struct Carrier {
     /// Abstract: how many elements the state has.
     pub count: u32,
@@ -26,6 +26,19 @@ pub(crate) struct Carrier {
     pub elements: Vec<Value>,
     /// Elements that only the intermediate state of a running `seq` has, beyond those.
     pub intermediate: Vec<Value>,
+}
+
+impl Clone for Carrier {
+    fn clone(&self) -> Carrier {
+        let Carrier { count, fresh, elements, intermediate } = self;
+        Carrier { count: *count, fresh: *fresh, elements: elements.clone(), intermediate: intermediate.clone() }
+    }
+
+    fn clone_from(&mut self, other: &Carrier) {
+        (self.count, self.fresh) = (other.count, other.fresh);
+        self.elements.clone_from(&other.elements);
+        self.intermediate.clone_from(&other.intermediate);
+    }
 }
 
 /// The values of a state by the numbers of its locations, and what belongs to them.

@@ -165,7 +165,8 @@ impl<'p> Side<'p> {
 
     /// The initial states with the inputs that they read.
     fn starts(&mut self, numbers: &mut Numbers) -> Vec<(u32, u32)> {
-        let starts: Vec<_> = self.explorer.initial().to_vec();
+        let starts: Vec<(Box<[u64]>, _)> =
+            self.explorer.initial().iter().map(|(state, start)| (state.into(), start)).collect();
         let mut found = Vec::new();
         for (state, start) in starts {
             if self.is_assumed(&state) {

@@ -229,7 +229,8 @@ impl Side {
 
     /// The initial states, each with the inputs that it read.
     pub fn initial(&mut self, inputs: &mut Inputs, bridge: &Bridge) -> Vec<(Label, StateId, Start)> {
-        let starts: Vec<(Box<[u64]>, Start)> = self.explorer.initial().to_vec();
+        let starts: Vec<(Box<[u64]>, Start)> =
+            self.explorer.initial().iter().map(|(state, start)| (state.into(), start)).collect();
         let mut found = Vec::new();
         let mut seen = FxHashSet::default();
         for (state, start) in starts {

@@ -72,8 +72,7 @@ impl Maker {
 
 /// The initial states, up to interchangeable elements.
 pub(crate) fn representatives(explorer: &mut Explorer, orbits: Option<&Orbits>) -> Vec<u64> {
-    let mut starts = Vec::with_capacity(explorer.initial().len() * explorer.words());
-    explorer.initial().iter().for_each(|(state, _)| starts.extend_from_slice(state));
+    let mut starts = explorer.initial().words().to_vec();
     if let Some(orbits) = orbits {
         explorer.normalise(orbits, &mut starts);
     }

@@ -110,7 +110,8 @@ struct Lister<'a> {
 impl Lister<'_> {
     fn list(mut self, watch: &mut dyn FnMut(&Progress) -> bool) -> Result<Listing, Trouble> {
         let mut listing = Listing::default();
-        for (state, _) in self.explorer.initial().to_vec() {
+        let starts: Vec<Box<[u64]>> = self.explorer.initial().iter().map(|(state, _)| state.into()).collect();
+        for state in starts {
             self.number(&mut listing, state, 0);
         }
         let (mut next, mut transitions) = (0, 0);

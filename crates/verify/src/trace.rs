@@ -46,7 +46,7 @@ pub(crate) fn picks_between(explorer: &mut Explorer, from: &[u64], to: &[u64]) -
 
 /// The run from an initial state along a chain of states.
 pub(crate) fn tell_way(explorer: &mut Explorer, chain: &[Box<[u64]>]) -> Trace {
-    let start = explorer.initial().iter().find(|(state, _)| *state == chain[0]).map(|(_, start)| *start);
+    let start = explorer.initial().iter().find(|(state, _)| **state == *chain[0]).map(|(_, start)| start);
     let start = start.map(|start| explorer.told_of_start(start)).unwrap_or_default();
     let mut trace = Trace { start, values: explorer.values(&chain[0]), steps: Vec::new(), turn: None, branch: false };
     for pair in chain.windows(2) {

@@ -17,6 +17,7 @@ mod partial_order;
 mod reference;
 mod runs;
 mod solver;
+mod starts;
 mod storage;
 mod symbolic;
 mod symmetry;

@@ -77,7 +77,7 @@ impl Environment for Odometer {
     }
 }
 
-type Key = (Vec<(Location, Value)>, Vec<Vec<Value>>);
+pub(crate) type Key = (Vec<(Location, Value)>, Vec<Vec<Value>>);
 
 /// Whether a domain may get elements that do not exist at the start.
 fn grows(program: &Program, domain: DomainId) -> bool {
@@ -94,7 +94,7 @@ fn grows(program: &Program, domain: DomainId) -> bool {
 }
 
 /// A state by its values, without locations whose initial value may not have been needed yet.
-fn key(program: &Program, values: Vec<(Location, Value)>, machine: Option<&mut Machine>) -> Key {
+pub(crate) fn key(program: &Program, values: Vec<(Location, Value)>, machine: Option<&mut Machine>) -> Key {
     let initialised: BTreeSet<FunctionId> = program.initials.iter().map(|initial| initial.function).collect();
     let keep = |location: &Location| {
         let function = program.function(location.function);
@@ -115,7 +115,7 @@ fn key(program: &Program, values: Vec<(Location, Value)>, machine: Option<&mut M
 }
 
 /// The possible inputs in the machine's state.
-fn inputs(program: &Program, machine: &mut Machine, bounds: &Bounds) -> BTreeMap<FunctionId, Vec<Value>> {
+pub(crate) fn inputs(program: &Program, machine: &mut Machine, bounds: &Bounds) -> BTreeMap<FunctionId, Vec<Value>> {
     let mut inputs = bounds.clone();
     for (index, function) in program.functions.iter().enumerate() {
         let id = FunctionId(index as u32);
@@ -127,7 +127,7 @@ fn inputs(program: &Program, machine: &mut Machine, bounds: &Bounds) -> BTreeMap
 }
 
 /// Two numbers for each input that is a number.
-fn bounds(program: &Program) -> Bounds {
+pub(crate) fn bounds(program: &Program) -> Bounds {
     let is_number = |domain: DomainId| {
         matches!(program.domain(domain).kind, DomainKind::Basic(model::Basic::Integer | model::Basic::Natural))
     };
@@ -153,7 +153,7 @@ fn explorers(
     Ok(([quick, Explorer::new(program, slow, widening, &interner)?], compiled.transpose()?))
 }
 
-fn limits() -> Limits {
+pub(crate) fn limits() -> Limits {
     Limits { iterations: 200, call_depth: 100, collection: 100, updates: 2_000, locations: 2_000, ..Limits::default() }
 }
 
@@ -217,7 +217,7 @@ fn straight(
 }
 
 /// Checks that two states are equal, and shows the difference if not.
-fn same(program: &Program, ours: &[(Location, Value)], theirs: &[(Location, Value)]) {
+pub(crate) fn same(program: &Program, ours: &[(Location, Value)], theirs: &[(Location, Value)]) {
     let show = |of: &[(Location, Value)], other: &[(Location, Value)]| -> Vec<String> {
         let own = of.iter().filter(|pair| !other.contains(pair));
         own.map(|(location, value)| format!("{} = {}", location.show(program), value.show(program))).collect()
@@ -243,7 +243,7 @@ pub(crate) fn compare(
         return Ok(());
     }
     machine.forget_inputs();
-    let first = quick.initial()[0].0.clone();
+    let first = Box::<[u64]>::from(quick.initial().first().expect("an initial state"));
     let mut seen = BTreeSet::from([first.clone()]);
     let mut queue = VecDeque::from([(first, machine.snapshot())]);
     while let Some((state, snapshot)) = queue.pop_front() {
@@ -307,7 +307,7 @@ fn compare_conditions(program: &Arc<Program>, widening: &Widening, total: &mut T
     let interner = Arc::new(Interner::default());
     let mut made = Explorer::new(program, made, widening, &interner)?;
     let mut compiled = Explorer::like(program, compiled, widening, &interner, Some(&made.starts()))?;
-    let mut queue: VecDeque<Box<[u64]>> = made.initial().iter().take(1).map(|(state, _)| state.clone()).collect();
+    let mut queue: VecDeque<Box<[u64]>> = made.initial().iter().take(1).map(|(state, _)| state.into()).collect();
     let mut seen: BTreeSet<Box<[u64]>> = queue.iter().cloned().collect();
     while let Some(state) = queue.pop_front() {
         let (mut out, mut again) = (Vec::new(), Vec::new());
@@ -403,7 +403,7 @@ fn compare_from_all(program: &Arc<Program>, widening: &Widening, total: &mut Tot
     let mut compiled = compiled.expect("it was wanted");
     let mut machine = Machine::new(Arc::clone(program), limits());
     let mut odometer = Odometer { inputs: inputs(program, &mut machine, &bounds), ..Odometer::default() };
-    let initial: Vec<Box<[u64]>> = made.initial().iter().map(|(state, _)| state.clone()).collect();
+    let initial: Vec<Box<[u64]>> = made.initial().iter().map(|(state, _)| state.into()).collect();
     assert!(initial.len() > 1, "the initial states differ");
     for state in &initial {
         machine.start(&mut odometer).expect("it starts");

@@ -72,7 +72,7 @@ fn the_alternatives_of_one_state_are_not_gone_through_to_their_end() {
     let settings = Settings { interrupt: interrupt.clone(), ..Settings::default() };
     let mut explorer = Explorer::new(&program, settings.clone(), &Widening::default(), &Arc::new(Interner::default()))
         .expect("there is an initial state");
-    let state: Box<[u64]> = explorer.initial()[0].0.clone();
+    let state: Box<[u64]> = explorer.initial().first().expect("an initial state").into();
     interrupt.raise(Cause::Memory);
     let expansion = explorer.expand(&state, &mut Vec::new()).expect("it fits");
     assert!(expansion.interrupted && expansion.moved == 0, "made by the machine");
@@ -90,7 +90,7 @@ fn remembered_steps_are_not_walked_to_their_end() {
     let settings = Settings { interrupt: interrupt.clone(), ..Settings::default() };
     let mut explorer = Explorer::new(&program, settings, &Widening::default(), &Arc::new(Interner::default()))
         .expect("there is an initial state");
-    let state: Box<[u64]> = explorer.initial()[0].0.clone();
+    let state: Box<[u64]> = explorer.initial().first().expect("an initial state").into();
     let mut out = Vec::new();
     let expansion = explorer.expand(&state, &mut out).expect("it fits");
     assert_eq!((expansion.moved, expansion.stayed, expansion.interrupted), (30 * 30 - 1, 1, false));

@@ -73,6 +73,16 @@ fn philosophers_have_three_to_the_n_states_but_one_and_one_deadlock() {
 }
 
 #[test]
+fn each_choice_of_six_amounts_is_an_initial_state() {
+    let program = program("Starts");
+    let counts = [1, 2].map(|workers| {
+        let report = check(&program, &Options { workers, ..Options::default() });
+        (report.progress.states, report.progress.transitions, report.progress.depth)
+    });
+    assert_eq!(counts, [(117_649, 0, 0); 2]);
+}
+
+#[test]
 fn a_panic_ends_all_workers() {
     let program = program("Swing");
     for (workers, alone) in [(1, 0), (2, 0), (2, 64), (3, 0)] {

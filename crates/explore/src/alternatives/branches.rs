@@ -156,6 +156,11 @@ impl Branches {
         false
     }
 
+    /// How many answers, the first, are those of the alternative before.
+    pub(crate) fn kept(&self) -> usize {
+        self.asked.len() - 1
+    }
+
     fn begin(&mut self) {
         self.at = 0;
         self.events.clear();
@@ -223,6 +228,14 @@ impl Alternatives for Branches {
         self.events.push(Event::Ask);
         self.at += 1;
         self.asked[self.at - 1].taken as usize
+    }
+
+    fn asked(&self) -> usize {
+        self.at
+    }
+
+    fn ask_from(&mut self, question: usize) {
+        self.at = question;
     }
 
     fn be_dead(&mut self) {

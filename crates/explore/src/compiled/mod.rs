@@ -87,7 +87,7 @@ impl Compiled {
         branches.bounds = Arc::new(all_bounds(program, encoding, &mut machine, settings));
         let mut view = View::new(Arc::clone(interner));
         // Each location has the value that its field says from now on, not only those that differ.
-        let first = starts.states.first().map(|(state, _)| state.to_vec())?;
+        let first = starts.first()?.to_vec();
         encoding.unpack(program, &first, &mut machine, &mut view);
         if !machine.compile_steps(elsewhere(&machine, encoding, starts, &mut view), &settings.code) {
             return None;
@@ -252,14 +252,11 @@ impl StepMaker for Compiled {
 fn elsewhere(machine: &Machine, encoding: &Encoding, starts: &Starts, view: &mut View) -> Elsewhere {
     let functions = machine.program().functions.len();
     let (mut varies, mut undefined) = (vec![false; functions], vec![false; functions]);
-    let [(first, _), others @ ..] = &starts.states[..] else { return Elsewhere::default() };
-    if others.is_empty() {
-        return Elsewhere::default();
-    }
+    let Some(first) = starts.first().filter(|_| starts.len() > 1) else { return Elsewhere::default() };
     for field in encoding.fields.iter().filter(|field| field.location != NOWHERE) {
         let index = field.function.0 as usize;
-        varies[index] |= others.iter().any(|(state, _)| field.code(state) != field.code(first));
-        undefined[index] |= starts.states.iter().any(|(state, _)| encoding.value(*field, state, view).is_undef());
+        varies[index] |= starts.iter().any(|(state, _)| field.code(state) != field.code(first));
+        undefined[index] |= starts.iter().any(|(state, _)| encoding.value(*field, state, view).is_undef());
     }
     for location in (0..).zip(&*encoding.of_location).filter(|(_, field)| **field == REST).map(|(location, _)| location)
     {

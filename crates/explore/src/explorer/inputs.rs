@@ -41,11 +41,10 @@ impl Explorer {
             return;
         }
         let all = Arc::clone(&self.starts);
-        let mut admitted =
-            all.states.iter().map(|(state, _)| self.admits_inputs(state)).collect::<Vec<_>>().into_iter();
+        let admitted: Vec<bool> = all.iter().map(|(state, _)| self.admits_inputs(state)).collect();
         drop(all);
         if let Some(starts) = Arc::get_mut(&mut self.starts) {
-            starts.states.retain(|_| admitted.next() == Some(true));
+            starts.retain(&admitted);
         }
     }
 

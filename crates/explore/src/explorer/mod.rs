@@ -41,7 +41,7 @@ use crate::packed::widening::{TooNarrow, Widening};
 use crate::packed::words::{Overwrite, REST};
 use crate::settings::{Settings, Trouble};
 use crate::starts::origin::Origins;
-use crate::starts::{Begun, Start, Starts, each_start};
+use crate::starts::{Begun, Starts, each_start};
 use makers::Makers;
 use sighting::Sighting;
 
@@ -137,13 +137,20 @@ impl Explorer {
         let starts = match known {
             Some(known) => Arc::clone(known),
             None => {
-                let mut starts = Starts::new(seen);
+                let mut starts = Starts::new(seen, encoding.words);
+                let mut words = vec![0; encoding.words].into_boxed_slice();
+                let narrow = |TooNarrow(widening)| Trouble::TooNarrow(widening);
                 branches.first();
                 each_start(&mut machine, &blank, &mut branches, &settings.interrupt, &mut |machine, branches| {
-                    let origin = origins.number(machine);
-                    let inputs = machine.inputs();
-                    let words = encoding.pack(program, machine, (&inputs, origin), &mut view);
-                    starts.push(words.map_err(|TooNarrow(widening)| Trouble::TooNarrow(widening))?, branches);
+                    let packed = match machine.changed_by_start() {
+                        Some((changed, _)) => encoding.pack_changed(machine, changed, &mut words, &mut view),
+                        None => Ok(false),
+                    };
+                    if !packed.map_err(narrow)? {
+                        let (origin, inputs) = (origins.number(machine), machine.inputs());
+                        words = encoding.pack(program, machine, (&inputs, origin), &mut view).map_err(narrow)?;
+                    }
+                    starts.push(&words, branches);
                     Ok(ControlFlow::Continue(()))
                 })?;
                 Arc::new(starts)
@@ -211,8 +218,8 @@ impl Explorer {
     }
 
     /// The initial states; one may come up several times.
-    pub fn initial(&self) -> &[(Box<[u64]>, Start)] {
-        &self.starts.states
+    pub fn initial(&self) -> &Starts {
+        &self.starts
     }
 
     /// The same, for another explorer: see [`Explorer::like`].

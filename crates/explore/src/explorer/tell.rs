@@ -45,17 +45,15 @@ impl Explorer {
         let mut branches = Branches::new(self.settings.bounds.clone());
         let (answers, mut left) = self.starts.way_to(start);
         branches.follow(answers);
-        let mut told = Told::default();
         // The starts were made before without a fault.
-        let _ = each_start(&mut machine, &blank, &mut branches, &Interrupt::default(), &mut |machine, branches| {
-            if left > 0 {
-                left -= 1;
-                return Ok(ControlFlow::Continue(()));
-            }
-            let choices = std::mem::take(&mut branches.chosen);
-            told = Told { inputs: machine.inputs(), choices, ..Told::default() };
-            Ok(ControlFlow::Break(()))
+        let _ = each_start(&mut machine, &blank, &mut branches, &Interrupt::default(), &mut |_, _| {
+            left = left.wrapping_sub(1);
+            Ok(if left == usize::MAX { ControlFlow::Break(()) } else { ControlFlow::Continue(()) })
         });
-        told
+        // A start that goes on from another one tells only of what it asks for itself.
+        let answers: Vec<u32> = branches.answers().iter().map(|asked| asked.taken).collect();
+        branches.follow(&answers);
+        let _ = machine.start_from(&blank, &mut branches);
+        Told { inputs: machine.inputs(), choices: std::mem::take(&mut branches.chosen), ..Told::default() }
     }
 }

@@ -289,6 +289,28 @@ impl Encoding {
         Ok(words)
     }
 
+    /// Changes the packed initial state before this one by the locations that may differ; false where it is not enough to look at
+    /// these.
+    pub fn pack_changed(
+        &self,
+        machine: &Machine,
+        changed: &[u32],
+        words: &mut [u64],
+        view: &mut View,
+    ) -> Result<bool, TooNarrow> {
+        for location in changed {
+            match self.of_location.get(*location as usize) {
+                Some(&NOWHERE) => {}
+                Some(field) if *field < REST => {
+                    let field = self.fields[*field as usize];
+                    field.put(self.code(field, machine.store().value(*location), view)?, words);
+                }
+                Some(_) | None => return Ok(false),
+            }
+        }
+        Ok(true)
+    }
+
     /// Puts the machine into a packed state.
     pub fn unpack(&self, program: &Program, words: &[u64], machine: &mut Machine, view: &mut View) {
         let store = machine.store_mut();

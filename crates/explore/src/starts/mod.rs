@@ -11,7 +11,7 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use machine::inside::Store;
-use machine::{FaultKind, Interrupt, Location, Machine, Snapshot, Value};
+use machine::{Fault, FaultKind, Interrupt, Location, Machine, Snapshot, Value};
 
 use crate::alternatives::branches::Branches;
 use crate::settings::Trouble;
@@ -40,25 +40,64 @@ pub(crate) struct Seen {
 /// All initial states.
 #[derive(Debug)]
 pub struct Starts {
-    /// The states; one may come up several times.
-    pub(crate) states: Vec<(Box<[u64]>, Start)>,
+    /// The words of the states, one after the other; one may come up several times.
+    words: Vec<u64>,
+    /// How many words each has.
+    width: usize,
+    /// Their numbers, where some were left out.
+    numbers: Option<Vec<Start>>,
     /// The answers that lead to each of them whose number is a multiple of [`MARK`].
     marks: Vec<Box<[u32]>>,
     pub(crate) seen: Arc<Seen>,
 }
 
 impl Starts {
-    /// None yet.
-    pub(crate) fn new(seen: Arc<Seen>) -> Starts {
-        Starts { states: Vec::new(), marks: Vec::new(), seen }
+    /// None yet of states of so many words.
+    pub(crate) fn new(seen: Arc<Seen>, width: usize) -> Starts {
+        Starts { words: Vec::new(), width, numbers: None, marks: Vec::new(), seen }
     }
 
     /// Adds the state that these answers lead to.
-    pub(crate) fn push(&mut self, words: Box<[u64]>, branches: &Branches) {
-        if self.states.len().is_multiple_of(MARK) {
+    pub(crate) fn push(&mut self, words: &[u64], branches: &Branches) {
+        if self.len().is_multiple_of(MARK) {
             self.marks.push(branches.answers().iter().map(|asked| asked.taken).collect());
         }
-        self.states.push((words, Start(self.states.len() as u32)));
+        self.words.extend_from_slice(words);
+    }
+
+    /// How many there are.
+    pub fn len(&self) -> usize {
+        self.words.len() / self.width
+    }
+
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.words.is_empty()
+    }
+
+    /// The states and their numbers.
+    pub fn iter(&self) -> impl ExactSizeIterator<Item = (&[u64], Start)> {
+        let number = |at: usize| self.numbers.as_ref().map_or(Start(at as u32), |numbers| numbers[at]);
+        self.words.chunks_exact(self.width).enumerate().map(move |(at, state)| (state, number(at)))
+    }
+
+    /// The first of the states.
+    pub fn first(&self) -> Option<&[u64]> {
+        self.words.get(..self.width)
+    }
+
+    /// The words of the states, one after the other.
+    pub fn words(&self) -> &[u64] {
+        &self.words
+    }
+
+    /// Leaves out those that are not to stay.
+    pub(crate) fn retain(&mut self, stays: &[bool]) {
+        let stay: Vec<(&[u64], Start)> =
+            self.iter().zip(stays).filter(|(_, stays)| **stays).map(|(one, _)| one).collect();
+        let numbers = stay.iter().map(|(_, start)| *start).collect();
+        let words = stay.iter().flat_map(|(state, _)| *state).copied().collect();
+        (self.words, self.numbers) = (words, Some(numbers));
     }
 
     /// The answers that lead to a start before this one or to itself, and how many starts after that it comes.
@@ -80,8 +119,15 @@ pub(crate) struct Begun {
 impl Begun {
     /// Adds the one that the machine was started in.
     pub fn add(&mut self, machine: &Machine) {
-        self.columns.add(machine.store().values());
-        for (location, value) in machine.inputs() {
+        let values = machine.store().values();
+        let changed = machine.changed_by_start();
+        match changed {
+            Some((locations, _)) => {
+                locations.iter().for_each(|location| self.columns.add(*location as usize, &values[*location as usize]));
+            }
+            None => self.columns.add_all(values),
+        }
+        for (location, value) in machine.inputs_from(changed.map_or(0, |(_, same)| same)) {
             self.asked.entry((location, value.is_undef())).or_insert(value);
         }
         self.origins.number(machine);
@@ -103,15 +149,19 @@ struct Columns {
 
 impl Columns {
     /// Adds those of a state.
-    fn add(&mut self, values: &[Value]) {
+    fn add_all(&mut self, values: &[Value]) {
         if self.others.is_empty() {
             self.first = values.to_vec();
             self.others = vec![BTreeSet::new(); values.len()];
         }
-        for ((value, first), others) in values.iter().zip(&self.first).zip(&mut self.others) {
-            if value != first && (others.len() < VALUES || value.is_undef()) {
-                others.insert(value.clone());
-            }
+        values.iter().enumerate().for_each(|(location, value)| self.add(location, value));
+    }
+
+    /// Adds the value of a location.
+    fn add(&mut self, location: usize, value: &Value) {
+        let (Some(first), Some(others)) = (self.first.get(location), self.others.get_mut(location)) else { return };
+        if value != first && (others.len() < VALUES || value.is_undef()) {
+            others.insert(value.clone());
         }
     }
 
@@ -137,22 +187,33 @@ pub(crate) fn each_start(
     interrupt: &Interrupt,
     visit: &mut Visit<'_>,
 ) -> Result<(), Trouble> {
-    loop {
+    let mut outcome = machine.start_from(blank, branches);
+    let ended = loop {
         if let Some(cause) = interrupt.cause() {
-            return Err(Trouble::Interrupted(cause));
+            break Err(Trouble::Interrupted(cause));
         }
-        if let Err(fault) = machine.start_from(blank, branches) {
-            if let FaultKind::Interrupted(cause) = fault.kind {
-                return Err(Trouble::Interrupted(cause));
-            }
-            branches.note_limit(&fault);
-            return Err(match branches.unbounded {
-                Some(unbounded) => Trouble::Unbounded(unbounded),
-                None => Trouble::Fault(Box::new(fault)),
-            });
+        if let Err(fault) = outcome {
+            break Err(trouble(fault, branches));
         }
-        if visit(machine, branches)?.is_break() || !branches.next() {
-            return Ok(());
+        match visit(machine, branches) {
+            Ok(ControlFlow::Continue(())) if branches.next() => {}
+            Ok(_) => break Ok(()),
+            Err(trouble) => break Err(trouble),
         }
+        outcome = machine.start_again(blank, branches.kept(), branches);
+    };
+    machine.end_starts();
+    ended
+}
+
+/// Why a start was not made.
+fn trouble(fault: Fault, branches: &mut Branches) -> Trouble {
+    if let FaultKind::Interrupted(cause) = fault.kind {
+        return Trouble::Interrupted(cause);
+    }
+    branches.note_limit(&fault);
+    match branches.unbounded {
+        Some(unbounded) => Trouble::Unbounded(unbounded),
+        None => Trouble::Fault(Box::new(fault)),
     }
 }

@@ -45,6 +45,6 @@ pub fn question(program: &Program, plan: &Plan) -> u64 {
 
 /// The number of the layout of packed states.
 pub fn layout(explorer: &Explorer) -> u64 {
-    let initial: Vec<&[u64]> = explorer.initial().iter().map(|(state, _)| &**state).collect();
+    let initial: Vec<&[u64]> = explorer.initial().iter().map(|(state, _)| state).collect();
     hash(&[&explorer.words(), &explorer.fields(), &initial])
 }

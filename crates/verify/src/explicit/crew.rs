@@ -130,7 +130,7 @@ impl Rounds<'_> {
             shard.compiled_before = shard.compiled.saturating_sub(explorer.compiled_states());
             if shard.reduction.is_some() {
                 // Expanding a state determines the parts of the main rule.
-                let initial = explorer.initial().first().map(|(state, _)| state.clone());
+                let initial = explorer.initial().first().map(Box::<[u64]>::from);
                 let _ = initial.map(|state| explorer.expand(&state, &mut Vec::new()));
             }
         }

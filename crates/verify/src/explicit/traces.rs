@@ -49,7 +49,7 @@ impl Search {
     fn concrete(&mut self, chain: Vec<Box<[u64]>>) -> Vec<Box<[u64]>> {
         let Some(orbits) = self.orbits.clone() else { return chain };
         let explorer = &mut self.explorer;
-        let starts: Vec<Box<[u64]>> = explorer.initial().iter().map(|(state, _)| state.clone()).collect();
+        let starts: Vec<Box<[u64]>> = explorer.initial().iter().map(|(state, _)| state.into()).collect();
         let mut represented = starts.into_iter().map(|state| {
             let (representative, permutation) = explorer.normalised(&orbits, &state);
             (state, representative, permutation)

@@ -13,7 +13,7 @@ const LISTED: u8 = 16;
 /// The location of each field.
 pub(crate) fn located(explorer: &mut Explorer) -> Vec<Option<Location>> {
     let fields = explorer.fields();
-    let Some(state) = explorer.initial().first().map(|(state, _)| state.clone()) else {
+    let Some(state) = explorer.initial().first().map(Box::<[u64]>::from) else {
         return vec![None; fields.len()];
     };
     let base = explorer.values_and_inputs(&state);

@@ -80,7 +80,7 @@ impl Reduction {
         let (fields, locations) = (explorer.fields(), located(explorer));
         let found = footprints(program, &plan.settings, &locations).filter(|found| found.parts.len() <= PARTS);
         let (parts, visible) = found.map(|found| (found.parts, found.visible)).ok_or(Unreduced::NoChoice)?;
-        let initial = explorer.initial().first().map(|(state, _)| state.clone());
+        let initial = explorer.initial().first().map(Box::<[u64]>::from);
         if let Some(state) = initial {
             // What does not fit is reported when the state's steps are made for the search.
             let _ = explorer.expand(&state, &mut Vec::new());

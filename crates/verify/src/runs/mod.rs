@@ -319,7 +319,7 @@ impl Explored {
     fn trace(&mut self, run: &Run) -> Trace {
         let nodes = run.states(&self.graph);
         let first: Box<[u64]> = self.states.get(self.nodes[nodes[0] as usize].0).into();
-        let start = self.explorer.initial().iter().find(|(state, _)| *state == first).map(|(_, start)| *start);
+        let start = self.explorer.initial().iter().find(|(state, _)| **state == *first).map(|(_, start)| start);
         let start = start.map(|start| self.explorer.told_of_start(start)).unwrap_or_default();
         let values = self.explorer.values(&first);
         let ends = nodes.windows(2).zip(&run.edges);

@@ -226,7 +226,7 @@ impl<'s> Exploration<'s> {
 
     /// Meets the initial states.
     fn prepare(&mut self) {
-        let initial: Vec<Box<[u64]>> = self.explorer.initial().iter().map(|(state, _)| state.clone()).collect();
+        let initial: Vec<Box<[u64]>> = self.explorer.initial().iter().map(|(state, _)| state.into()).collect();
         for state in initial {
             self.state(&state, 0);
         }

@@ -295,7 +295,7 @@ fn starts(program: &Arc<Program>, plan: &Plan) -> Result<Vec<Start>, Unrelated> 
     };
     let mut seen = BTreeSet::new();
     let distinct: Vec<_> =
-        explorer.initial().iter().filter(|(state, _)| seen.insert(state.clone())).map(|(_, start)| *start).collect();
+        explorer.initial().iter().filter(|(state, _)| seen.insert(*state)).map(|(_, start)| start).collect();
     if distinct.len() > STARTS {
         let what = format!("more than {STARTS} initial states");
         return Err(Unrelated::Outside(Outside { what, span: nowhere }));

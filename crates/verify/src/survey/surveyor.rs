@@ -157,10 +157,7 @@ impl<'p> Surveyor<'p> {
     }
 
     fn run(mut self, watch: &mut dyn FnMut(&Progress) -> bool) -> Result<Survey, Trouble> {
-        let mut states = Vec::new();
-        for (state, _) in self.survey.explorer.initial() {
-            states.extend_from_slice(state);
-        }
+        let states = self.survey.explorer.initial().words().to_vec();
         self.take_in(NONE, &states);
         let (mut next, mut level) = (0, self.survey.table.len());
         let mut successors = Vec::new();

@@ -107,7 +107,7 @@ impl Wanderer {
     }
 
     fn attempt(&mut self, steps: usize, draw: &mut dyn FnMut(usize) -> usize) -> Result<Walk, Widening> {
-        let starts: Vec<Box<[u64]>> = self.explorer.initial().iter().map(|(state, _)| state.clone()).collect();
+        let starts: Vec<Box<[u64]>> = self.explorer.initial().iter().map(|(state, _)| state.into()).collect();
         let starts: Vec<Box<[u64]>> = starts.into_iter().filter(|state| self.admits(state)).collect();
         if starts.is_empty() {
             return Ok(Walk::default());

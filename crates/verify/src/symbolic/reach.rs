@@ -138,7 +138,7 @@ impl Reach {
     /// The initial states.
     fn initial(&mut self, plan: &Plan) -> Result<Set, Halt> {
         let mut set = self.diagrams.empty();
-        let states: Vec<Box<[u64]>> = self.explorer.initial().iter().map(|(state, _)| state.clone()).collect();
+        let states: Vec<Box<[u64]>> = self.explorer.initial().iter().map(|(state, _)| state.into()).collect();
         for state in states {
             let state = self.diagrams.state(&state)?;
             set = self.diagrams.union(&set, &state)?;
@@ -409,7 +409,7 @@ impl Reach {
 /// Expands some states one by one, to see what steps read.
 fn sample(explorer: &mut Explorer) -> Result<(), Widening> {
     let words = explorer.words();
-    let mut states: Vec<Box<[u64]>> = explorer.initial().iter().map(|(state, _)| state.clone()).collect();
+    let mut states: Vec<Box<[u64]>> = explorer.initial().iter().map(|(state, _)| state.into()).collect();
     let mut met: FxHashSet<Box<[u64]>> = states.iter().cloned().collect();
     let mut successors = Vec::new();
     let mut next = 0;
