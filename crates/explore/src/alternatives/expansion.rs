@@ -59,7 +59,7 @@ impl Expansion {
     }
 
     /// Counts an alternative, and lists what it leads to.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn count(
         &mut self,
         kind: AlternativeKind,

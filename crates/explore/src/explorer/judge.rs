@@ -16,6 +16,9 @@ impl Explorer {
     // The inner loop of a search.
     #[inline(always)]
     pub fn truth(&mut self, condition: usize, state: &[u64]) -> Truth {
+        if self.conditions[condition].is_known_true(state, &self.settings.interrupt) {
+            return Truth::True;
+        }
         for part in 0..self.conditions[condition].parts.len() {
             let truth = self.truth_of_part(condition, part, state);
             if truth != Truth::True {
@@ -95,6 +98,7 @@ impl Explorer {
                 let tree = &mut self.conditions[condition].parts[part].tree;
                 let answers = self.branches.answers();
                 tree.learn(&self.encoding.looks, state, &self.branches.events, answers, truth.end());
+                self.conditions[condition].front.learned();
             }
             if !self.branches.next() {
                 return worst;

@@ -7,13 +7,17 @@
 use std::sync::Arc;
 
 use machine::inside::extended;
-use machine::{Machine, Value};
+use machine::{Interrupt, Machine, Value};
 use program::{Builtin, DomainId, Expression, Program, Quantifier, Slot, Term, TermId};
 
+use crate::memory::front::Front;
 use crate::memory::tree::{End, Tree};
 
 /// LIMIT: a formula is taken apart into so many parts at most.
 const PARTS: usize = 1 << 12;
+
+/// Fewer parts are walked one by one.
+const MANY: usize = 8;
 
 /// What a condition comes to in a state.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -57,12 +61,21 @@ pub(crate) struct Part {
 #[derive(Debug)]
 pub(crate) struct Condition {
     pub parts: Vec<Part>,
+    /// Which parts the first field that each looks at decides.
+    pub front: Front,
 }
 
 impl Condition {
+    /// Whether it is known to be true in a state without a look at each part. False also where looking at each is as quick.
+    #[inline(always)]
+    pub fn is_known_true(&mut self, state: &[u64], interrupt: &Interrupt) -> bool {
+        let Condition { parts, front } = self;
+        parts.len() >= MANY && front.all_end(parts.len(), |part| &parts[part].tree, Truth::True.end(), state, interrupt)
+    }
+
     /// A condition of a formula without parameters.
     pub fn new(program: &Program, machine: &mut Machine, formula: &Expression) -> Condition {
-        let mut condition = Condition { parts: Vec::new() };
+        let mut condition = Condition { parts: Vec::new(), front: Front::default() };
         let constant = program.constant_domains();
         condition.take_apart(program, &constant, machine, formula.frame, formula.body, Arc::new([]));
         condition

@@ -5,6 +5,7 @@
 //! tree should give way. [`maker`] is the seam between these and any other way of making steps without the machine.
 
 pub(crate) mod condition;
+mod front;
 pub(crate) mod maker;
 pub(crate) mod record;
 pub(crate) mod steps;

@@ -14,6 +14,9 @@ use crate::memory::maker::{StepMaker, Unmade};
 use crate::memory::tree::{DEAD, End, Tree};
 use crate::packed::words::{Field, Overwrite};
 
+/// The end of an alternative that leaves the state as it is, and no condition on the step fails.
+const STAYS: End = 1;
+
 /// What an end of the tree means.
 #[derive(Debug, Clone, Copy)]
 struct Effect {
@@ -39,7 +42,13 @@ impl Default for Steps {
     fn default() -> Self {
         // The first end stands for dead alternatives.
         let dead = Effect { kind: AlternativeKind::Excluded, failed: false, first: 0, len: 0 };
-        Steps { tree: Tree::default(), effects: vec![dead], overwrites: Vec::new(), failures: HashMap::default() }
+        let stays = Effect { kind: AlternativeKind::Next, ..dead };
+        Steps {
+            tree: Tree::default(),
+            effects: vec![dead, stays],
+            overwrites: Vec::new(),
+            failures: HashMap::default(),
+        }
     }
 }
 
@@ -56,14 +65,37 @@ impl StepMaker for Steps {
             return Err(Unmade::Unknown);
         }
         let Steps { tree, effects, overwrites, failures } = self;
-        tree.walk(state, interrupt, &mut |end| {
-            let effect = effects[end as usize];
-            let overwrites = &overwrites[effect.first as usize..(effect.first + effect.len) as usize];
-            expansion.count(effect.kind, state, overwrites, found);
-            if effect.failed {
-                expansion.fail(failures.get(&end).map_or(&[], |failed| failed));
-            }
-        })
+        let mut arrivals = Arrivals { effects, overwrites, failures, state, expansion, found };
+        let mut stayed = 0;
+        // Most alternatives of a state with many of them leave it as it is: these are counted where the tree is walked, without a call.
+        let walked = tree.walk(state, interrupt, &mut |end| match end {
+            STAYS => stayed += 1,
+            end => arrivals.arrive(end),
+        });
+        expansion.stayed += stayed;
+        walked
+    }
+}
+
+/// What the ends that a walk comes to are added to.
+struct Arrivals<'s, 'o> {
+    effects: &'s [Effect],
+    overwrites: &'s [Overwrite],
+    failures: &'s HashMap<End, Box<[u32]>, FxBuildHasher>,
+    state: &'s [u64],
+    expansion: &'s mut Expansion,
+    found: &'s mut Successors<'o>,
+}
+
+impl Arrivals<'_, '_> {
+    #[inline(never)]
+    fn arrive(&mut self, end: End) {
+        let effect = self.effects[end as usize];
+        let overwrites = &self.overwrites[effect.first as usize..(effect.first + effect.len) as usize];
+        self.expansion.count(effect.kind, self.state, overwrites, self.found);
+        if effect.failed {
+            self.expansion.fail(self.failures.get(&end).map_or(&[], |failed| failed));
+        }
     }
 }
 
@@ -84,6 +116,10 @@ impl Steps {
         failed: Vec<u32>,
     ) {
         if !self.tree.is_used() {
+            return;
+        }
+        if kind == AlternativeKind::Next && overwrites.is_empty() && failed.is_empty() {
+            self.tree.learn(fields, state, &branches.events, branches.answers(), STAYS);
             return;
         }
         let (first, len) = (self.overwrites.len() as u32, overwrites.len() as u32);

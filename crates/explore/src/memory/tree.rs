@@ -122,6 +122,12 @@ impl Tree {
         }
     }
 
+    /// The same without counting it; whether all ends are known.
+    #[inline]
+    pub fn knows(&self, words: &[u64], interrupt: &Interrupt, visit: &mut impl FnMut(End)) -> bool {
+        self.walk_from(self.root, words, interrupt, visit).is_ok()
+    }
+
     #[cold]
     fn fail(&mut self) {
         self.record.miss();
