@@ -5,6 +5,7 @@
 //! E. Börger, R. Stärk, *Abstract State Machines*, Springer 2003: locations, updates and update sets (2.4), rules
 //! (2.4.4), turbo rules (4.1). It must not know files, clocks, random sources or printing.
 
+mod again;
 mod alternatives;
 mod branching;
 mod builtin;
