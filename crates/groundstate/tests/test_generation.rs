@@ -29,6 +29,16 @@ fn generate(path: &Path, method: Method, options: &Options) -> Tests {
     generate_tests(subject, options, method, &|file| file == root, &mut |_| true).expect("there is an initial state")
 }
 
+/// Tests of a model in memory, by search.
+fn generate_of(text: &str, options: &Options) -> Tests {
+    let loaded = groundstate::load(SourceFile::new("Model.asm", text), &mut Disk)
+        .unwrap_or_else(|faults| panic!("{:#?}", faults.diagnostics));
+    let root = loaded.model.root;
+    let subject = Subject { model: &loaded.model, program: &loaded.program, turns: &[], path: "Model.asm" };
+    let tests = generate_tests(subject, options, Method::Search, &|file| file == root, &mut |_| true);
+    tests.expect("there is an initial state")
+}
+
 /// Runs the scenarios beside the model, checks that all pass, and returns what they cover.
 fn run(path: &Path, tests: &Tests) -> Items {
     let mut suite = Suite::new();
@@ -105,18 +115,12 @@ fn the_scenarios_cover_what_is_said() {
 fn what_violated_invariants_hide_is_not_known() {
     let reasons = |invariant: &str, assumption: &str| -> Vec<Reason> {
         let text = format!(
-            "asm Count import StandardLibrary signature: domain N subsetof Integer controlled n: N monitored stop: Boolean \
+            "asm Model import StandardLibrary signature: domain N subsetof Integer controlled n: N monitored stop: Boolean \
              definitions: domain N = {{0:4}} {invariant} {assumption} \
              main rule r_Main = if n = 3 and not stop then n := 0 else if n < 3 then n := n + 1 endif endif \
              default init s0: function n = 0"
         );
-        let loaded = groundstate::load(SourceFile::new("Count.asm", text), &mut Disk)
-            .unwrap_or_else(|faults| panic!("{:#?}", faults.diagnostics));
-        let root = loaded.model.root;
-        let subject = Subject { model: &loaded.model, program: &loaded.program, turns: &[], path: "Count.asm" };
-        let options = Options::default();
-        let tests = generate_tests(subject, &options, Method::Search, &|file| file == root, &mut |_| true);
-        tests.expect("there is an initial state").reasons
+        generate_of(&text, &Options::default()).reasons
     };
     assert_eq!(reasons("", ""), []);
     assert_eq!(reasons("invariant inv_all over n: n <= 3", ""), []);
@@ -130,7 +134,7 @@ fn what_violated_invariants_hide_is_not_known() {
 /// A step counts only if it leads to a state that counts: what happens in others has to be seen again, also in steps that are known.
 #[test]
 fn a_step_into_a_violation_reaches_no_goal() {
-    let text = "asm Valve import StandardLibrary signature: enum domain State = {CLOSED | OPEN}
+    let text = "asm Model import StandardLibrary signature: enum domain State = {CLOSED | OPEN}
         monitored wish: State monitored reset: Boolean controlled valve: State controlled lamp: Boolean
         definitions: invariant inv_closed over valve: valve = CLOSED
         main rule r_Main = par
@@ -138,14 +142,8 @@ fn a_step_into_a_violation_reaches_no_goal() {
             if wish = OPEN then valve := wish endif
         endpar
         default init s0: function valve = CLOSED function lamp = false";
-    let loaded = groundstate::load(SourceFile::new("Valve.asm", text), &mut Disk)
-        .unwrap_or_else(|faults| panic!("{:#?}", faults.diagnostics));
-    let root = loaded.model.root;
-    let subject = Subject { model: &loaded.model, program: &loaded.program, turns: &[], path: "Valve.asm" };
-    let options = Options::default();
-    let tests = generate_tests(subject, &options, Method::Search, &|file| file == root, &mut |_| true);
-    let tests = tests.expect("there is an initial state");
-    let folder = repository::root().join("Valve.asm");
+    let tests = generate_of(text, &Options::default());
+    let folder = repository::root().join("Model.asm");
     let mut files = Texts::of([(folder.to_str().expect("text"), text)]);
     let mut suite = Suite::new();
     for scenario in &tests.scenarios {
@@ -166,21 +164,16 @@ fn a_step_into_a_violation_reaches_no_goal() {
 
 #[test]
 fn conditions_that_nothing_evaluates_are_goals_too() {
-    let text = "asm Oven import StandardLibrary signature: enum domain Mode = {IDLE | FAILED}
+    let text = "asm Model import StandardLibrary signature: enum domain Mode = {IDLE | FAILED}
         monitored hot: Boolean monitored cold: Boolean controlled mode: Mode controlled alarm: Boolean
         definitions: main rule r_Main = par
             if hot and cold then alarm := true endif
             if mode = FAILED then if hot or cold then alarm := false endif endif
         endpar
         default init s0: function mode = IDLE function alarm = false";
-    let loaded = groundstate::load(SourceFile::new("Oven.asm", text), &mut Disk)
-        .unwrap_or_else(|faults| panic!("{:#?}", faults.diagnostics));
-    let root = loaded.model.root;
-    let subject = Subject { model: &loaded.model, program: &loaded.program, turns: &[], path: "Oven.asm" };
     for depth in [0, 1, 9] {
         let options = Options { max_depth: depth, ..Options::default() };
-        let tests = generate_tests(subject, &options, Method::Search, &|file| file == root, &mut |_| true);
-        let goals = tests.expect("there is an initial state").goals;
+        let goals = generate_of(text, &options).goals;
         let conditions: Vec<bool> =
             goals.iter().filter(|goal| goal.kind == GoalKind::Condition).map(|goal| goal.reached).collect();
         let seen = depth > 0;

@@ -53,7 +53,21 @@ fn guards_of(program: &Program, rule: &Rule) -> Vec<TermId> {
         Rule::If { guards, .. } => program.term_list(*guards).to_vec(),
         Rule::While { condition, .. } | Rule::RecursiveWhile { condition, .. } => vec![*condition],
         Rule::Forall { condition, .. } => condition.iter().copied().collect(),
-        _ => Vec::new(),
+        Rule::Skip
+        | Rule::Update { .. }
+        | Rule::Call { .. }
+        | Rule::TurboCall { .. }
+        | Rule::Return { .. }
+        | Rule::RunValue { .. }
+        | Rule::RunAgent { .. }
+        | Rule::Par(_)
+        | Rule::Seq(_)
+        | Rule::Switch { .. }
+        | Rule::Let { .. }
+        | Rule::Choose { .. }
+        | Rule::Extend { .. }
+        | Rule::Iterate(_)
+        | Rule::Local { .. } => Vec::new(),
     }
 }
 

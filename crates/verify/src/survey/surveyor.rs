@@ -123,6 +123,9 @@ enum Care {
     Most,
 }
 
+/// What was seen, whether in a step that can be made, and the answers that lead to the step.
+type Seen = (Observation, bool, Vec<u32>);
+
 struct Surveyor<'p> {
     plan: &'p Plan,
     care: Care,
@@ -161,7 +164,8 @@ impl<'p> Surveyor<'p> {
         self.take_in(NONE, &states);
         let (mut next, mut level) = (0, self.survey.table.len());
         let mut successors = Vec::new();
-        while next < self.survey.table.len() {
+        // What was seen so far with too little care is not asked for.
+        while next < self.survey.table.len() && !(self.care == Care::Least && self.survey.left_out) {
             if next == level {
                 self.depth += 1;
                 level = self.survey.table.len();
@@ -173,19 +177,21 @@ impl<'p> Surveyor<'p> {
             let state: Box<[u64]> = self.survey.table.state(next).into();
             successors.clear();
             let expansion = self.survey.explorer.expand(&state, &mut successors).map_err(Trouble::TooNarrow)?;
-            if expansion.interrupted {
+            let closely = match self.care {
+                Care::Least => Some(Vec::new()),
+                Care::Most => self.look_closely(&state)?,
+            };
+            let Some(mut seen) = closely.filter(|_| !expansion.interrupted) else {
                 let cause = self.plan.settings.interrupt.cause().unwrap_or(Cause::Memory);
                 self.survey.stop = Some(cause.into());
                 break;
-            }
+            };
             self.transitions += u64::from(expansion.moved);
             // What an assumption leaves out and what an invariant does are one number.
             self.unlawful |= expansion.excluded > 0 && !self.plan.wanted_steps.is_empty();
-            let seen = self.survey.explorer.sightings();
-            let seen = match self.care {
-                Care::Least => seen.into_iter().map(|seen| (seen.observation, seen.made, seen.picks)).collect(),
-                Care::Most => self.look_closely(&state)?,
-            };
+            seen.extend(
+                self.survey.explorer.sightings().into_iter().map(|seen| (seen.observation, seen.made, seen.picks)),
+            );
             for (observation, made, picks) in seen {
                 let (depth, state) = (self.depth, next as u32);
                 self.survey.sightings.push(Sighting { observation, made, depth, state, picks });
@@ -235,11 +241,15 @@ impl<'p> Surveyor<'p> {
         }
     }
 
-    /// What happens for the first time in a step of a state that leads to one that counts, or cannot be made.
-    fn look_closely(&mut self, state: &[u64]) -> Result<Vec<(Observation, bool, Vec<u32>)>, Trouble> {
+    /// What happens for the first time in a step of a state that leads to one that counts, or cannot be made; none if whoever waits has had
+    /// enough before all steps were made.
+    fn look_closely(&mut self, state: &[u64]) -> Result<Option<Vec<Seen>>, Trouble> {
         let mut paths = Vec::new();
         let explorer = &mut self.survey.explorer;
-        explorer.paths(state, &mut |path| paths.push((path.picks, path.outcome))).map_err(Trouble::TooNarrow)?;
+        let whole = explorer.paths(state, &mut |path| paths.push((path.picks, path.outcome)));
+        if !whole.map_err(Trouble::TooNarrow)? {
+            return Ok(None);
+        }
         let mut found = Vec::new();
         for (picks, outcome) in paths {
             let made = match outcome {
@@ -253,8 +263,9 @@ impl<'p> Surveyor<'p> {
                 }
             }
         }
+        // The explorer's own look at them counts for nothing.
         self.survey.explorer.sightings();
-        Ok(found)
+        Ok(Some(found))
     }
 
     /// Whether a state counts: it satisfies the assumptions, and the invariants if they are asked for.
