@@ -7,7 +7,7 @@ use std::sync::Arc;
 use machine::{Machine, Value};
 use program::Program;
 use syntax::SourceFile;
-use testkit::repository;
+use testkit::{Random, repository, sample};
 use verify::Trace;
 use verify::runs::{OfRuns, RunPlan, Why, decide};
 use verify::temporal::fairness::AgentFairness;
@@ -203,6 +203,90 @@ fn no_formula_changes_the_verdict_of_another() {
     let mut turned = asked(&[others[2], others[1], others[0], one]);
     turned.reverse();
     assert_eq!(turned, alone);
+}
+
+/// Inputs that make the same true and lead to different states are different states.
+#[test]
+fn branches_belong_to_values_of_inputs() {
+    let button = "enum domain Button = {NONE | GO | HALT}\nmonitored button: Button\ncontrolled up: Boolean";
+    let lift = |formula: &str| {
+        let program = model(
+            button,
+            &format!(
+                "CTLSPEC ctlSpec_p: {formula}\nmain rule r_Main = up := button = GO\ndefault init s0: function up = false"
+            ),
+        );
+        words(&program, &unlimited()).remove(0)
+    };
+    assert_eq!(lift("ag(button != HALT implies ex(up))"), "ctlSpec_p violated 0");
+    assert_eq!(lift("ag(button = GO implies ax(up))"), "ctlSpec_p holds");
+    assert_eq!(lift("eg(not(up) and (button = GO or button != GO))"), "ctlSpec_p violated 0");
+    assert_eq!(lift("ag(button != HALT implies ax(ex(up)))"), "ctlSpec_p violated 1");
+}
+
+/// Formulas over inputs have the verdict that they have where the model draws the next input itself and keeps it in its state.
+#[test]
+fn an_input_is_as_good_as_a_part_of_the_state() {
+    fn formula(random: &mut Random, depth: u64) -> String {
+        let atoms = ["m = AA", "m != BB", "n = 0", "n != 2", "(m = AA or m != AA)", "(m = BB or n = 1)"];
+        if depth == 0 {
+            return random.pick(&atoms).to_string();
+        }
+        let mut part = || formula(random, depth - 1);
+        let (p, q) = (part(), part());
+        match random.below(9) {
+            0 => format!("not({p})"),
+            1 => format!("({p} and {q})"),
+            2 => format!("({p} implies {q})"),
+            3 => format!("ex({p})"),
+            4 => format!("ax({p})"),
+            5 => format!("ef({p})"),
+            6 => format!("ag({p})"),
+            7 => format!("eg({p})"),
+            _ => format!("eu({p}, {q})"),
+        }
+    }
+    let mut random = Random(7);
+    let (mut held, mut violated) = (0, 0);
+    for case in 0..sample::setting("GROUNDSTATE_CASES", 150) {
+        let mut next = String::new();
+        for m in ["AA", "BB", "CC"] {
+            let of = |n: u64, random: &mut Random| format!("if $n = {n} then {} else", random.below(3));
+            let (zero, one) = (of(0, &mut random), of(1, &mut random));
+            next += &format!("case {m}: {zero} {one} {} endif endif\n", random.below(3));
+        }
+        // A formula that reads no input has none in its states.
+        let mut reading = |depth| format!("CTLSPEC (m = AA or m != AA) and ({})", formula(&mut random, depth));
+        let formulas: Vec<String> = (0..4).map(&mut reading).collect();
+        let signature =
+            "enum domain Letter = {AA | BB | CC}\ncontrolled n: Integer\nstatic next: Prod(Integer, Letter) -> Integer";
+        let next =
+            format!("function next($n in Integer, $m in Letter) = switch $m {next} endswitch\n{}", formulas.join("\n"));
+        let given = model(
+            &format!("{signature}\nmonitored m: Letter"),
+            &format!("{next}\nmain rule r_Main = n := next(n, m)\ndefault init s0: function n = 0"),
+        );
+        let drawn = model(
+            &format!("{signature}\ncontrolled m: Letter"),
+            &format!(
+                "{next}\nmain rule r_Main = choose $v in Letter with true do par n := next(n, m) m := $v endpar\n\
+                 default init s0: function n = 0 function m = chooseone({{AA, BB, CC}})"
+            ),
+        );
+        let verdicts = |program: &Arc<Program>| -> Vec<&str> {
+            let verdict = |(_, answer): (String, OfRuns)| match answer {
+                OfRuns::Holds => "holds",
+                OfRuns::Violated(_) => "violated",
+                OfRuns::Unknown(why) => panic!("{case}: {why:?}"),
+            };
+            ask(program, &unlimited()).into_iter().map(verdict).collect()
+        };
+        let found = verdicts(&given);
+        assert_eq!(found, verdicts(&drawn), "{case}: {next}");
+        held += found.iter().filter(|word| **word == "holds").count();
+        violated += found.iter().filter(|word| **word == "violated").count();
+    }
+    assert!(held > 50 && violated > 50, "{held} hold, {violated} are violated");
 }
 
 #[test]

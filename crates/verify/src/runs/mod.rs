@@ -21,7 +21,7 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use explore::{Outcome as Came, Settings, Told, Trouble};
-use program::Program;
+use program::{FunctionId, FunctionKind, Program};
 use syntax::Span;
 
 use crate::graph::{Label, StateSet};
@@ -37,7 +37,7 @@ use crate::temporal::{FormulaVerdict, decide_ctl, decide_ltl};
 use crate::trace::Trace;
 use crate::walk::Walk;
 use apart::{Group, groups};
-use states::{Explored, Place, Source, explore, has_letter};
+use states::{Explored, Place, Source, explore};
 
 pub use outcome::{OfRuns, Why};
 pub use scheduler::scheduler;
@@ -245,7 +245,7 @@ fn speaks_of(properties: &Properties, formula: Formula) -> Vec<u32> {
 fn source(program: &Arc<Program>, plan: &RunPlan, properties: &Properties) -> (Source, BTreeSet<u32>) {
     let mut extended = (**program).clone();
     let mut settings = plan.settings.clone();
-    let (mut places, mut unwritten) = (Vec::new(), BTreeSet::new());
+    let (mut places, mut unwritten, mut inputs) = (Vec::new(), BTreeSet::new(), BTreeSet::new());
     for (number, proposition) in properties.propositions.iter().enumerate() {
         let expression = close::closed(&mut extended, proposition).unwrap_or_else(|| {
             unwritten.insert(number as u32);
@@ -253,6 +253,10 @@ fn source(program: &Arc<Program>, plan: &RunPlan, properties: &Properties) -> (S
         });
         if extended.reads_monitored(&expression) {
             places.push(Place::Step(settings.step_conditions.len()));
+            let given = |function: &FunctionId| {
+                matches!(extended.function(*function).kind, FunctionKind::Monitored | FunctionKind::Shared)
+            };
+            inputs.extend(extended.reads_and_more(&expression).0.into_iter().filter(given));
             let negated = close::negated(&mut extended, &expression);
             settings.step_conditions.extend([(expression, false), (negated, false)]);
         } else {
@@ -260,7 +264,12 @@ fn source(program: &Arc<Program>, plan: &RunPlan, properties: &Properties) -> (S
             settings.conditions.push(expression);
         }
     }
+    // Runs that formulas of LTL speak of are the same whatever else the inputs are.
+    if !properties.formulas.iter().any(|(_, formula)| matches!(formula, Formula::Ctl(_))) {
+        inputs.clear();
+    }
     let source = Source {
+        inputs,
         scheduler: plan.agents.and_then(|_| scheduler(&extended)),
         program: Arc::new(extended),
         settings,
@@ -334,7 +343,7 @@ impl Explored {
         let state: Box<[u64]> = self.states.get(state).into();
         let label = self.graph.label(edge);
         let chosen = self.choices.get(label.0 as usize);
-        let (letters, first_step) = (&self.letters, self.first_step);
+        let letters = &self.letters;
         let mut picks = None;
         // A successor that does not fit would have been reported before.
         let _ = self.explorer.paths_until(&state, &mut |path| {
@@ -344,7 +353,7 @@ impl Explored {
                 Came::Unbounded(_) | Came::Excluded => false,
             };
             let is_chosen = chosen.is_none_or(|values| path.choices.iter().any(|choice| choice.values == *values));
-            if leads && is_chosen && has_letter(letters, first_step, &path, letter) {
+            if leads && is_chosen && letters.is_of(letter, &path) {
                 picks = Some(path.picks);
                 return ControlFlow::Break(());
             }

@@ -2,16 +2,17 @@
 //!
 //! In: a program, propositions, bounds. Out: a [`Graph`] and the states of its nodes. If propositions read inputs, a
 //! state of the machine gets one node for each set of propositions that its inputs can make true, with the steps that
-//! these inputs allow; all other inputs, and choices, belong to the step. A step that faults leads nowhere: the run
+//! these inputs allow; all other inputs, and choices, belong to the step. Formulas that tell branches apart need more: a node for
+//! each value of the inputs that they read. Of values that make the same true and lead to the same states one is kept, for all. A step that faults leads nowhere: the run
 //! stays. A state with alternatives that cannot be enumerated counts as unexplored.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use explore::{Explorer, Interner, Outcome, Path, Settings, Trouble, Truth, Widening};
 use hashbrown::HashSet;
-use machine::{Cause, Value};
-use program::Program;
+use machine::{Cause, Location, Value};
+use program::{FunctionId, Program};
 use rustc_hash::FxBuildHasher;
 use syntax::Span;
 
@@ -32,6 +33,9 @@ pub struct Source {
     pub assumed: Vec<usize>,
     /// For each proposition, its condition.
     pub propositions: Vec<Place>,
+    /// The functions whose values, where the environment gives them, tell nodes of one state apart; none if it is enough what they make
+    /// true, since no formula tells branches apart.
+    pub inputs: BTreeSet<FunctionId>,
     /// The rule that chooses who moves, if edges are labelled with its choice.
     pub scheduler: Option<Span>,
     /// The largest number of states.
@@ -62,16 +66,50 @@ pub struct Explored {
     pub nodes: Vec<(u32, u32)>,
     /// The states.
     pub states: Numbered,
-    /// For each letter: for each condition on steps, whether it and its negation fail.
-    pub(super) letters: Vec<Vec<u32>>,
+    /// What tells the nodes of one state apart.
+    pub(super) letters: Letters,
     /// For each label: the choice.
     pub choices: Vec<Vec<Value>>,
     /// For each proposition: a state in which it has no truth value, if there is one.
     pub undecided: Vec<Option<u32>>,
     /// Why it is not complete, if because of a limit.
     pub stop: Option<Stop>,
+}
+
+/// What the inputs of a state come to.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+struct Letter {
+    /// The conditions on steps that fail, among the propositions and their negations.
+    failed: Vec<u32>,
+    /// The values of inputs that tell nodes apart.
+    inputs: Vec<(Location, Value)>,
+}
+
+/// The letters of a graph, by their numbers.
+#[derive(Debug, Default)]
+pub(super) struct Letters {
+    all: Vec<Letter>,
+    numbers: BTreeMap<Letter, u32>,
     /// The first condition on steps that is a proposition.
-    pub(super) first_step: u32,
+    first_step: u32,
+    /// The functions whose values count.
+    inputs: BTreeSet<FunctionId>,
+}
+
+impl Letters {
+    /// The letter of a step.
+    fn of(&self, path: &Path) -> Letter {
+        let failed = path.failed.iter().copied().filter(|condition| *condition >= self.first_step);
+        let counts = |(location, _): &&(Location, Value)| self.inputs.contains(&location.function);
+        let mut inputs: Vec<(Location, Value)> = path.inputs.iter().filter(counts).cloned().collect();
+        inputs.sort();
+        Letter { failed: failed.collect(), inputs }
+    }
+
+    /// Whether a repeated step has the letter of this number.
+    pub(super) fn is_of(&self, number: u32, path: &Path) -> bool {
+        self.all.get(number as usize).is_none_or(|letter| *letter == self.of(path))
+    }
 }
 
 /// A step of a state: its letter, its target, its label.
@@ -116,12 +154,10 @@ struct Exploration<'s> {
     /// For each explored state, where its rows end.
     ends: Vec<usize>,
     cut: Vec<bool>,
-    letters: Vec<Vec<u32>>,
-    letter: BTreeMap<Vec<u32>, u32>,
+    letters: Letters,
     choices: Vec<Vec<Value>>,
     choice: BTreeMap<Vec<Value>, u32>,
     undecided: Vec<Option<u32>>,
-    first_step: u32,
     stop: Option<Stop>,
 }
 
@@ -140,12 +176,14 @@ impl<'s> Exploration<'s> {
             rows: Vec::new(),
             ends: Vec::new(),
             cut: Vec::new(),
-            letters: Vec::new(),
-            letter: BTreeMap::new(),
+            letters: Letters {
+                first_step: steps.min().unwrap_or(u32::MAX),
+                inputs: source.inputs.clone(),
+                ..Letters::default()
+            },
             choices: Vec::new(),
             choice: BTreeMap::new(),
             undecided: vec![None; source.propositions.len()],
-            first_step: steps.min().unwrap_or(u32::MAX),
             stop: None,
         }
     }
@@ -161,7 +199,7 @@ impl<'s> Exploration<'s> {
             Some(Stop::States) => states >= source.max_states,
             Some(_) => false,
         };
-        let plain = exploration.first_step == u32::MAX && source.scheduler.is_none();
+        let plain = exploration.letters.first_step == u32::MAX && source.scheduler.is_none();
         if !plain || !far_enough || !exploration.explorer.packs_like(&walker) {
             return None;
         }
@@ -269,7 +307,7 @@ impl<'s> Exploration<'s> {
         let depth = self.depths[index] + 1;
         let start = self.rows.len();
         let mut cut = false;
-        if self.first_step == u32::MAX && self.source.scheduler.is_none() {
+        if self.letters.first_step == u32::MAX && self.source.scheduler.is_none() {
             let mut successors = Vec::new();
             let expansion = self.explorer.expand(&state, &mut successors)?;
             if expansion.interrupted {
@@ -288,47 +326,17 @@ impl<'s> Exploration<'s> {
             }
             cut = expansion.unbounded > 0;
         } else {
-            // Of equivalent alternatives only one is kept, since there may be many.
-            let (mut paths, mut seen) = (Vec::new(), HashSet::<_, FxBuildHasher>::default());
-            let scheduler = self.source.scheduler;
-            let whole = self.explorer.paths(&state, &mut |mut path| {
-                path.choices.retain(|choice| Some(choice.span) == scheduler);
-                let next = match &path.outcome {
-                    Outcome::Next(next) => Some(next.clone()),
-                    _ => None,
-                };
-                let chosen: Vec<Vec<Value>> = path.choices.iter().map(|choice| choice.values.clone()).collect();
-                if seen.insert((std::mem::discriminant(&path.outcome), next, path.failed.clone(), chosen)) {
-                    paths.push(path);
-                }
-            })?;
-            if !whole {
-                return Ok(false);
-            }
-            for path in paths {
-                // A step that is ruled out says nothing about propositions.
-                match &path.outcome {
-                    Outcome::Next(next) => {
-                        if let Some(target) = self.state(next, depth) {
-                            let letter = self.letter_of(&path);
-                            let label = self.label_of(&path);
-                            self.rows.push((letter, target, label));
-                        }
-                    }
-                    Outcome::Fault(_) => {
-                        let letter = self.letter_of(&path);
-                        self.rows.push((letter, index as u32, Label::STUTTER.0));
-                    }
-                    Outcome::Unbounded(_) => cut = true,
-                    Outcome::Excluded => {}
-                }
+            let Some(groups) = self.grouped(&state, depth, index as u32, &mut cut)? else { return Ok(false) };
+            for Grouped { letter, rows } in groups {
+                let letter = self.number_of(letter);
+                self.rows.extend(rows.into_iter().map(|(target, label)| (letter, target, label)));
             }
         }
         if cut {
             self.rows.truncate(start);
         }
         // Without a step there are no inputs, so propositions about them are unknown.
-        cut |= self.first_step != u32::MAX && self.rows.len() == start;
+        cut |= self.letters.first_step != u32::MAX && self.rows.len() == start;
         let own = &mut self.rows[start..];
         own.sort_unstable_by_key(|(letter, ..)| *letter);
         self.ends.push(self.rows.len());
@@ -336,27 +344,78 @@ impl<'s> Exploration<'s> {
         Ok(true)
     }
 
-    /// The letter of a step: which conditions on its inputs hold.
-    fn letter_of(&mut self, path: &Path) -> u32 {
-        if self.first_step == u32::MAX {
+    /// The steps of a state by what its inputs come to; none if the caller asked to stop before all were found.
+    fn grouped(
+        &mut self,
+        state: &[u64],
+        depth: u32,
+        index: u32,
+        cut: &mut bool,
+    ) -> Result<Option<Vec<Grouped>>, Widening> {
+        // Of equivalent alternatives only one is kept, since there may be many.
+        let (mut paths, mut seen) = (Vec::new(), HashSet::<_, FxBuildHasher>::default());
+        let (scheduler, letters) = (self.source.scheduler, &self.letters);
+        let whole = self.explorer.paths(state, &mut |mut path| {
+            path.choices.retain(|choice| Some(choice.span) == scheduler);
+            let next = match &path.outcome {
+                Outcome::Next(next) => Some(next.clone()),
+                _ => None,
+            };
+            let chosen: Vec<Vec<Value>> = path.choices.iter().map(|choice| choice.values.clone()).collect();
+            let letter = letters.of(&path);
+            let kept =
+                (std::mem::discriminant(&path.outcome), next, path.failed.clone(), letter.inputs.clone(), chosen);
+            if seen.insert(kept) {
+                paths.push((letter, path));
+            }
+        })?;
+        if !whole {
+            return Ok(None);
+        }
+        let (mut groups, mut places): (Vec<Grouped>, BTreeMap<Letter, usize>) = (Vec::new(), BTreeMap::new());
+        for (letter, path) in paths {
+            // A step that is ruled out says nothing about propositions.
+            let row = match &path.outcome {
+                Outcome::Next(next) => match self.state(next, depth) {
+                    Some(target) => (target, self.label_of(&path)),
+                    None => continue,
+                },
+                Outcome::Fault(_) => (index, Label::STUTTER.0),
+                Outcome::Unbounded(_) => {
+                    *cut = true;
+                    continue;
+                }
+                Outcome::Excluded => continue,
+            };
+            let place = *places.entry(letter).or_insert_with_key(|letter| {
+                groups.push(Grouped { letter: letter.clone(), rows: Vec::new() });
+                groups.len() - 1
+            });
+            groups[place].rows.push(row);
+        }
+        Ok(Some(apart(groups)))
+    }
+
+    /// The number of a letter.
+    fn number_of(&mut self, letter: Letter) -> u32 {
+        if self.letters.first_step == u32::MAX {
             return 0;
         }
-        let failed: Vec<u32> = path.failed.iter().copied().filter(|condition| *condition >= self.first_step).collect();
-        let next = self.letters.len() as u32;
-        if let Some(known) = self.letter.get(&failed) {
+        let next = self.letters.all.len() as u32;
+        if let Some(known) = self.letters.numbers.get(&letter) {
             return *known;
         }
         for (proposition, place) in self.source.propositions.iter().enumerate() {
             if let Place::Step(condition) = place {
-                let fails = |condition: usize| failed.contains(&(condition as u32));
+                let fails = |condition: usize| letter.failed.contains(&(condition as u32));
                 if fails(*condition) == fails(*condition + 1) {
                     // The number of the state being explored.
                     self.undecided[proposition].get_or_insert(self.ends.len() as u32);
                 }
             }
         }
-        self.letter.insert(failed.clone(), next);
-        self.letters.push(failed);
+        self.letters.numbers.insert(letter.clone(), next);
+        self.letters.all.push(letter);
         next
     }
 
@@ -416,8 +475,8 @@ impl<'s> Exploration<'s> {
                         }
                     },
                     Place::Step(condition) => {
-                        let failed = self.letters.get(*letter as usize);
-                        failed.is_some_and(|failed| !failed.contains(&(*condition as u32)))
+                        let letter = self.letters.all.get(*letter as usize);
+                        letter.is_some_and(|letter| !letter.failed.contains(&(*condition as u32)))
                     }
                 });
             }
@@ -443,15 +502,25 @@ impl<'s> Exploration<'s> {
             choices: self.choices,
             undecided: self.undecided,
             stop: self.stop,
-            first_step: self.first_step,
         }
     }
 }
 
-/// Whether a repeated step has this letter.
-pub(super) fn has_letter(letters: &[Vec<u32>], first_step: u32, path: &Path, letter: u32) -> bool {
-    let own = path.failed.iter().filter(|condition| **condition >= first_step);
-    letters.get(letter as usize).is_none_or(|failed| own.eq(failed.iter()))
+/// The steps of a state, each with its target and its label, that some inputs allow.
+struct Grouped {
+    letter: Letter,
+    rows: Vec<(u32, u32)>,
+}
+
+/// Those of which no other makes the same true and allows the same steps: nothing tells such two apart.
+fn apart(mut groups: Vec<Grouped>) -> Vec<Grouped> {
+    let mut seen = BTreeSet::new();
+    groups.retain(|group| {
+        let mut rows = group.rows.clone();
+        rows.sort_unstable();
+        seen.insert((group.letter.failed.clone(), rows))
+    });
+    groups
 }
 
 #[cfg(test)]

@@ -54,6 +54,7 @@ fn compare(text: &str, program: &Arc<Program>, settings: Settings, assumed: Vec<
         settings: settings.clone(),
         assumed: assumed.clone(),
         propositions: Vec::new(),
+        inputs: BTreeSet::new(),
         scheduler: None,
         max_states,
         max_depth: whole,
