@@ -45,6 +45,13 @@ pub struct Decision {
     pub events: usize,
 }
 
+impl Decision {
+    /// What was got or decided, in words: `decides motor`.
+    pub fn words(&self) -> String {
+        format!("{} {}", if self.is_got { "gets" } else { "decides" }, self.object)
+    }
+}
+
 /// What happened.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Kind {

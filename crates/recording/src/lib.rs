@@ -40,21 +40,36 @@ pub struct Track {
 }
 
 impl Track {
-    /// What of the order of these events, from that one on, no run can have: an instant before the run began, or before the
-    /// one of the event before.
+    /// What of the order of these events, from that one on, and of the decisions among them no run can have: an instant before the run
+    /// began, or before the one of the event or the decision before.
     pub fn disorder(&self, from: usize) -> Option<String> {
-        let ms = |event: &Event| format!("{:.4} ms", event.time_ns as f64 / 1e6);
-        let known = self.events[..from.min(self.events.len())].last();
-        let mut before_ns = known.map_or(0, |event| event.time_ns);
-        for (order, event) in self.events.iter().enumerate().skip(from) {
-            if event.time_ns < before_ns {
-                let what = format!("event {order} of {} ({}) is at {}", self.task, event.words(), ms(event));
-                return Some(match order.checked_sub(1) {
-                    Some(before) => format!("{what}, the event before it at {}", ms(&self.events[before])),
-                    None => format!("{what}, before the run began"),
-                });
+        let from = from.min(self.events.len());
+        let mut decisions =
+            self.decisions[self.decisions.partition_point(|decision| decision.events < from)..].iter().peekable();
+        let mut before_ns = self.events[..from].last().map(|event| event.time_ns);
+        let mut goes_back = |what: &dyn Fn() -> String, time_ns: i64| {
+            let ms = |time_ns: i64| format!("{:.4} ms", time_ns as f64 / 1e6);
+            match before_ns.replace(time_ns) {
+                Some(last_ns) if time_ns < last_ns => {
+                    Some(format!("{} is at {}, the event before it at {}", what(), ms(time_ns), ms(last_ns)))
+                }
+                None if time_ns < 0 => Some(format!("{} is at {}, before the run began", what(), ms(time_ns))),
+                _ => None,
             }
-            before_ns = event.time_ns;
+        };
+        for order in from..=self.events.len() {
+            while let Some(decision) = decisions.next_if(|decision| decision.events <= order) {
+                let words = goes_back(&|| format!("what {} {}", self.task, decision.words()), decision.time_ns);
+                if words.is_some() {
+                    return words;
+                }
+            }
+            if let Some(event) = self.events.get(order) {
+                let words = goes_back(&|| format!("event {order} of {} ({})", self.task, event.words()), event.time_ns);
+                if words.is_some() {
+                    return words;
+                }
+            }
         }
         None
     }

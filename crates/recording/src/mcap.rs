@@ -24,7 +24,7 @@ const MAGIC: &[u8] = b"\x89MCAP0\r\n";
 const FOOTER: usize = 9 + 16;
 
 /// What the end of a log says of bounds, each by its number.
-fn bounds(values: &BTreeMap<&str, &str>) -> Vec<Bounded> {
+fn bounds(values: &BTreeMap<&str, &str>) -> Result<Vec<Bounded>, Malformed> {
     let of = |number: usize| {
         let text = |what: &str| values.get(format!("{what} {number}").as_str()).copied();
         let count = |what: &str| text(what).and_then(|text| text.parse().ok());
@@ -38,7 +38,16 @@ fn bounds(values: &BTreeMap<&str, &str>) -> Vec<Bounded> {
             greatest,
         })
     };
-    (0..).map_while(of).collect()
+    let counted = |key: &&&str| {
+        let words = ["bound", "limit", "seen", "below", "beyond", "greatest", "greatest_ns"];
+        key.split_once(' ').is_some_and(|(what, number)| words.contains(&what) && number.parse::<usize>().is_ok())
+    };
+    let bounds: Vec<Bounded> = (0..).map_while(of).collect();
+    // Each has six of them.
+    if values.keys().filter(counted).count() != 6 * bounds.len() {
+        return malformed(format!("it does not say whole and in numbers what was counted of bound {}", bounds.len()));
+    }
+    Ok(bounds)
 }
 
 fn malformed<T>(words: impl Into<String>) -> Result<T, Malformed> {
@@ -324,7 +333,7 @@ impl Reader {
                 recording.stopped_ns = stopped_ns;
                 if name == "end" {
                     recording.ended = true;
-                    recording.bounds = bounds(values);
+                    recording.bounds = bounds(values)?;
                     recording.failure = failure(values);
                     // The program counts what it lost; what is told of the tasks' numbers does not undo that.
                     let lost = !matches!(text("lost"), "" | "0");
@@ -383,13 +392,18 @@ impl Reader {
             let (known, fresh, is_got) = (known.unwrap_or(false), fresh.unwrap_or(false), decision.unwrap_or(false));
             let events = track.events.len();
             track.decisions.push(Decision { time_ns, is_got, object, part, bits: number, known, fresh, events });
-            return Some(Ok(()));
+            return Some(in_order(track));
         };
         track.events.push(Event { time_ns, kind, object, number, array, next, fresh });
-        match track.disorder(track.events.len() - 1) {
-            Some(words) => Some(malformed(format!("time goes back: {words}"))),
-            None => Some(Ok(())),
-        }
+        Some(in_order(track))
+    }
+}
+
+/// Refuses an instant that lies before the one that was recorded last.
+fn in_order(track: &Track) -> Result<(), Malformed> {
+    match track.disorder(track.events.len().saturating_sub(1)) {
+        Some(words) => malformed(format!("time goes back: {words}")),
+        None => Ok(()),
     }
 }
 

@@ -225,3 +225,53 @@ fn what_is_said_twice_is_said_once() {
     check(&[about("stop", &[("stopped_ns", "-8")])], two);
     check(&[channel(0, "/task"), end(), event(0, 0, 1)], "an event comes behind the end of the run");
 }
+
+#[test]
+fn decisions_stand_among_the_events() {
+    let decides = |order: u32, time_ns: i64| {
+        let fields =
+            format!("{{\"order\":{order},\"kind\":\"decides\",\"object\":\"jaw\",\"number\":1,\"known\":true}}");
+        record(0x05, &[&[0, 0, 0, 0, 0, 0][..], &time_ns.to_le_bytes(), &[0; 8], fields.as_bytes()].concat())
+    };
+    let check = |events: &[Vec<u8>], expect: &str| {
+        refused(&ended([head(), channel(0, "/task"), chunk(&events.concat())].concat()), expect);
+    };
+    check(
+        &[event(0, 0, 1_000_000), decides(1, 500_000)],
+        "time goes back: what task decides jaw is at 0.5000 ms, the event before it at 1.0000 ms",
+    );
+    check(
+        &[event(0, 0, 1_000_000), decides(1, 3_000_000), event(0, 2, 2_000_000)],
+        "time goes back: event 1 of task (begins p, cycle 1) is at 2.0000 ms, the event before it at 3.0000 ms",
+    );
+    check(&[decides(0, -1_000_000)], "time goes back: what task decides jaw is at -1.0000 ms, before the run began");
+    let fine = [decides(0, 1), decides(1, 1), event(0, 2, 1), decides(3, 2), decides(4, 5), event(0, 5, 5)].concat();
+    let fine = Recording::read(&ended([head(), channel(0, "/task"), chunk(&fine)].concat())).expect("time goes on");
+    assert_eq!((fine.tracks[0].events.len(), fine.tracks[0].decisions.len(), fine.tracks[0].lost), (2, 4, false));
+}
+
+#[test]
+fn what_was_counted_of_a_bound_is_whole() {
+    let counted = [
+        ("bound 0", "a"),
+        ("limit 0", "3 ms"),
+        ("seen 0", "5"),
+        ("below 0", "0"),
+        ("beyond 0", "2"),
+        ("greatest_ns 0", "7"),
+    ];
+    let read = |counted: &[(&str, &str)]| {
+        let end = about("end", &[&[("stopped_ns", "7"), ("events task", "0"), ("outcome", "ended")], counted].concat());
+        Recording::read(&ended([head(), channel(0, "/task"), end].concat()))
+    };
+    assert_eq!(read(&counted).expect("whole").bounds[0].outside(), 2);
+    for index in 0..counted.len() {
+        let missing: Vec<_> =
+            counted.iter().enumerate().filter(|(at, _)| *at != index).map(|(_, pair)| *pair).collect();
+        let words = "it does not say whole and in numbers what was counted of bound 0";
+        assert_eq!(read(&missing), Err(Malformed(words.to_string())), "without {}", counted[index].0);
+        let mut damaged = counted;
+        damaged[index].1 = "-1";
+        assert_eq!(read(&damaged).is_err(), index > 1, "{}", counted[index].0);
+    }
+}

@@ -8,7 +8,7 @@ mod follow;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use ::conform::{Event, Kind, Malformed, Parted, Reader, Recording, Refusal, Track, Verdict, diagnose_parted};
+use ::conform::{Event, Kind, Malformed, Parted, Reader, Recording, Refusal, Verdict, diagnose_parted};
 use clap::Args;
 use groundstate::Loaded;
 use groundstate::job::{self, Cancel, ConformRequest, Conformed, Events, NoTail, NotConformed};
@@ -165,22 +165,22 @@ fn outside(recording: &Recording) -> String {
 /// LIMIT: periods without an event that are told of.
 const SILENT: i64 = 4;
 
-/// The synchronous tasks of which nothing is recorded for several periods before they were asked to stop. An order of events says nothing of
-/// what did not come.
+/// The synchronous tasks of which nothing is recorded for several periods before they were asked to stop, and the others of which nothing
+/// is recorded at all. An order of events says nothing of what did not come.
 fn silent(recording: &Recording) -> String {
     let Some(stopped_ns) = recording.stopped_ns else { return String::new() };
-    let silence = |track: &Track| {
-        let period_ns = track.rhythm?.period_ns;
+    let told = recording.tracks.iter().filter_map(|track| {
         let last_ns = track.events.iter().map(|event| event.time_ns).filter(|time_ns| *time_ns <= stopped_ns).max();
         let silent_ns = stopped_ns - last_ns.unwrap_or(0);
-        (period_ns > 0 && silent_ns > SILENT * period_ns).then_some((silent_ns, silent_ns / period_ns))
-    };
-    let told = recording.tracks.iter().filter_map(|track| {
-        let (silent_ns, periods) = silence(track)?;
-        let (task, silent) = (&track.task, ms(silent_ns));
-        Some(format!(
-            "\nnothing is recorded of {task} in the last {silent} ms before the stop, {periods} of its periods: whether it stood still is not looked at"
-        ))
+        let when = match track.rhythm.map(|rhythm| rhythm.period_ns).filter(|period_ns| *period_ns > 0) {
+            Some(period_ns) if silent_ns > SILENT * period_ns => {
+                let (silent, periods) = (ms(silent_ns), silent_ns / period_ns);
+                format!("in the last {silent} ms before the stop, {periods} of its periods")
+            }
+            None if last_ns.is_none() => "before the stop".to_string(),
+            _ => return None,
+        };
+        Some(format!("\nnothing is recorded of {} {when}: whether it stood still is not looked at", track.task))
     });
     told.collect()
 }
@@ -240,7 +240,7 @@ fn parting(shell: &mut Shell, sources: &Sources, parted: &Parted) -> Result<(), 
 
 #[cfg(test)]
 mod tests {
-    use ::conform::Rhythm;
+    use ::conform::{Rhythm, Track};
 
     use super::*;
     #[test]
@@ -261,7 +261,7 @@ mod tests {
     }
 
     #[test]
-    fn a_synchronous_task_that_records_nothing_more_is_told_of() {
+    fn a_task_that_records_nothing_more_is_told_of() {
         let track = |task: &str, period_ns: i64, times: &[i64]| Track {
             task: task.to_string(),
             rhythm: (period_ns > 0).then_some(Rhythm { period_ns, offset_ns: 0, deadline_ns: period_ns }),
@@ -274,12 +274,16 @@ mod tests {
             // Nobody says when it is due.
             track("plan", 0, &[0]),
             track("eye", 10_000_000, &[]),
+            track("radio", 0, &[]),
+            track("late", 0, &[501_000_000]),
         ];
         let recording = Recording { tracks, stopped_ns: Some(500_000_000), ..Recording::default() };
         let end = "whether it stood still is not looked at";
         let said = format!(
             "\nnothing is recorded of drive in the last 488.0000 ms before the stop, 48 of its periods: {end}\
-             \nnothing is recorded of eye in the last 500.0000 ms before the stop, 50 of its periods: {end}"
+             \nnothing is recorded of eye in the last 500.0000 ms before the stop, 50 of its periods: {end}\
+             \nnothing is recorded of radio before the stop: {end}\
+             \nnothing is recorded of late before the stop: {end}"
         );
         assert_eq!(silent(&recording), said);
         assert_eq!(silent(&Recording { stopped_ns: None, ..recording }), "");
