@@ -70,7 +70,8 @@ pub struct Task {
     pub shares: Vec<u64>,
     /// Every waiting, by its length.
     pub waits: Tally,
-    /// Release to completion, for every completed cycle of a task with releases; otherwise completion to completion.
+    /// Release to completion, for every completed cycle of a task with releases; of one without periods from when it was no longer idle;
+    /// otherwise completion to completion.
     pub cycles: Tally,
     /// Cycles completed.
     pub completed: Option<u64>,

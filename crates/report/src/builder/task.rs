@@ -24,6 +24,10 @@ pub(super) struct TaskWatch {
     /// Ticks waited so far.
     waiting: u64,
     completed_at: Option<u64>,
+    /// It has been idle: its cycles begin when it is so no longer.
+    idles: bool,
+    /// Since when it has not been idle.
+    begun_at: Option<u64>,
     task: Task,
 }
 
@@ -58,6 +62,8 @@ impl TaskWatch {
             open: false,
             waiting: 0,
             completed_at: None,
+            idles: false,
+            begun_at: None,
             task,
         }
     }
@@ -86,7 +92,13 @@ impl TaskWatch {
         } else {
             self.end_waiting(moment.tick);
         }
-        self.note_completion(moment);
+        let begun_at = self.begun_at;
+        if kind.is_some_and(|kind| activities[kind as usize].tone == Tone::Idle) {
+            (self.idles, self.begun_at) = (true, None);
+        } else {
+            self.begun_at.get_or_insert(moment.tick);
+        }
+        self.note_completion(moment, begun_at);
         if self.release.is_some_and(|slot| moment.readings.changed(slot)) {
             self.note_release(moment);
         }
@@ -114,8 +126,8 @@ impl TaskWatch {
         }
     }
 
-    /// A cycle ends in the step that counts it; its release is that of the state before.
-    fn note_completion(&mut self, moment: &Moment) {
+    /// A cycle ends in the step that counts it; when it was released, or had begun, is that of the state before.
+    fn note_completion(&mut self, moment: &Moment, begun_at: Option<u64>) {
         let grew = |slot: Option<Slot>| {
             slot.is_some_and(|slot| {
                 let readings = moment.readings;
@@ -131,6 +143,7 @@ impl TaskWatch {
         }
         let begin = match self.release {
             Some(release) => moment.readings.integer_before(release).and_then(|tick| u64::try_from(tick).ok()),
+            None if self.idles && self.task.period.is_none() => begun_at.or(self.completed_at),
             None => self.completed_at,
         };
         if let Some(begin) = begin.filter(|begin| *begin <= moment.tick) {

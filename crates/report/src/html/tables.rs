@@ -19,7 +19,7 @@ pub(super) fn tasks(out: &mut String, report: &Report) {
         out,
         "tasks",
         "Tasks",
-        "Response is the time from the begin of a period to the end of its cycle; for a task without periods, from one end to the next. The bar shows it within the period: the mean dark, the longest pale.",
+        "Response is the time from the begin of a period to the end of its cycle; for a task without periods, from when it is no longer idle, or from one end to the next if it never is. The bar shows it within the period: the mean dark, the longest pale.",
     );
     out.push_str("<div class=\"wide\"><table class=\"tasks\">\n<thead><tr><th scope=\"col\">Task</th><th scope=\"col\">Cycles</th><th scope=\"col\">Deadlines met</th><th scope=\"col\">missed</th><th scope=\"col\">Response, mean</th><th scope=\"col\">longest</th><th scope=\"col\" class=\"drawn\">within the period</th><th scope=\"col\">Given up</th><th scope=\"col\" class=\"drawn\">Use of time</th></tr></thead>\n<tbody>\n");
     for task in &report.tasks {
