@@ -41,7 +41,7 @@ pub use spec::{
     ActivitySpec, BufferSpec, ChartSpec, CounterSpec, FlowSpec, HopSpec, LightsSpec, PartSpec, QueueSpec, SeriesSpec,
     Spec, TaskSpec, TermText,
 };
-pub use specification::{Specification, Wanted, WantedMachine, read_specification, specification_fault};
+pub use specification::{Specification, TermPlace, Wanted, WantedMachine, read_specification, specification_fault};
 pub use svg::{SvgOptions, render_svg};
 pub use tally::Tally;
 pub use text::{RunSummary, SummaryOptions, summarise, summarise_program};

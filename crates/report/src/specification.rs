@@ -5,7 +5,9 @@
 //! name; an entry of `each` may give a term of its own, or `~` for none.
 
 use std::collections::BTreeMap;
+use std::ops::Range;
 
+use inputs::Scalar;
 use inputs::node::{Key, Node, Shape, read};
 use syntax::{Diagnostic, FileId, Span};
 
@@ -26,9 +28,34 @@ pub struct Specification {
     /// What it shows, without the charts.
     pub spec: Spec,
     /// Where each term stands; for a term that comes several times, where it comes first.
-    pub places: BTreeMap<String, Span>,
+    pub places: BTreeMap<String, TermPlace>,
     /// The charts that are to be read and drawn.
     pub charts: Vec<Wanted>,
+}
+
+/// Where a term of a specification stands.
+#[derive(Debug, Clone)]
+pub struct TermPlace {
+    /// The whole of it.
+    pub span: Span,
+    /// The scalar that it is, and up to where the term is what stands there: a name put in for `{}` moves what follows it.
+    written: Option<(Scalar, u32)>,
+}
+
+impl TermPlace {
+    /// That of a term whose parts are not told apart.
+    pub fn whole(span: Span) -> TermPlace {
+        TermPlace { span, written: None }
+    }
+
+    /// Where a part of the term stands.
+    pub fn part(&self, part: Range<u32>) -> Span {
+        match &self.written {
+            Some((written, same)) if part.end <= *same => written.place(part),
+            Some((written, same)) => Span { start: written.place(part.start.min(*same)..*same).start, ..self.span },
+            None => self.span,
+        }
+    }
 }
 
 /// A chart to be shown.
@@ -77,7 +104,7 @@ pub fn read_specification(file: FileId, source: &str) -> Result<Specification, V
 
 struct Reader {
     faults: Vec<Diagnostic>,
-    places: BTreeMap<String, Span>,
+    places: BTreeMap<String, TermPlace>,
 }
 
 /// The entries of a mapping.
@@ -148,8 +175,14 @@ impl Reader {
 
     /// A term in which `{}` stands for a name.
     fn term(&mut self, node: Option<&Node>, id: &str) -> Option<String> {
-        let term = self.text(node)?.replace("{}", id);
-        self.places.entry(term.clone()).or_insert(node?.span);
+        let text = self.text(node)?;
+        let (node, term) = (node?, text.replace("{}", id));
+        let same = text.find("{}").unwrap_or(text.len()) as u32;
+        let written = match &node.shape {
+            Shape::Text(written) => Some((written.clone(), same)),
+            Shape::List(_) | Shape::Map(_) => None,
+        };
+        self.places.entry(term.clone()).or_insert(TermPlace { span: node.span, written });
         Some(term)
     }
 
@@ -424,4 +457,26 @@ fn nanoseconds(text: &str) -> Option<u64> {
     let time = text[..digits].parse::<f64>().ok()? * unit;
     // Below a nanosecond, or beyond what a run could last, it is a mistake.
     (1.0..1e18).contains(&time).then_some(time.round() as u64)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_part_of_a_term_stands_where_it_is_written() {
+        let source = "series:\n  a: { value: \"layer\u{e9} + 1\" }\n  b: { value: 'it{} + x' }\n";
+        let specification = read_specification(FileId(0), source).expect("it is one");
+        let part = |term: &str, part: &str| {
+            let at = term.find(part).expect("it is there") as u32;
+            let span = specification.places[term].part(at..at + part.len() as u32);
+            &source[span.start as usize..span.end as usize]
+        };
+        assert_eq!(part("layer\u{e9} + 1", "\u{e9}"), "\u{e9}");
+        assert_eq!(part("layer\u{e9} + 1", "1"), "1");
+        // Behind the name that is put in nothing is told apart.
+        let (term, _) = specification.places.iter().find(|(term, _)| term.starts_with("it")).expect("it is read");
+        assert_eq!(part(term, "it"), "it");
+        assert!(part(term, "x").contains("+ x"), "{term}");
+    }
 }

@@ -7,7 +7,7 @@ use std::path::Path;
 
 use chart::{Lights, NotDrawn, Pictures, subjects};
 use model::Loader;
-use report::{ChartSpec, LightsSpec, PartSpec, Specification, Wanted, specification_fault};
+use report::{ChartSpec, LightsSpec, PartSpec, Specification, TermPlace, Wanted, specification_fault};
 use syntax::{Diagnostic, Sources};
 
 use crate::has_errors;
@@ -74,9 +74,9 @@ fn show(
             let element = parametric.then(|| &wanted.each[index]);
             let when = own.and_then(|machine| machine.when.as_ref());
             let when = when.map(|(term, span)| (term.replace("{}", element.map_or("", |(id, _)| id)), *span));
-            specification.places.entry(lights.term.clone()).or_insert(wanted.span);
+            specification.places.entry(lights.term.clone()).or_insert(TermPlace::whole(wanted.span));
             if let Some((term, span)) = &when {
-                specification.places.entry(term.clone()).or_insert(*span);
+                specification.places.entry(term.clone()).or_insert(TermPlace::whole(*span));
             }
             of(lights, element.map(|(_, name)| name.clone()), when.map(|(term, _)| term))
         });

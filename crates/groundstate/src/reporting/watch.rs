@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use machine::{Closed, Machine, Show, Value};
 use program::Expression;
-use report::{ReportBuilder, specification_fault};
+use report::{ReportBuilder, TermPlace, specification_fault};
 use syntax::ast::{AstNode, TermFile};
 use syntax::{Diagnostic, Span};
 
@@ -25,12 +25,12 @@ impl Watch {
     pub fn new(
         asked: &mut Overlay,
         terms: &[String],
-        places: &BTreeMap<String, Span>,
+        places: &BTreeMap<String, TermPlace>,
     ) -> Result<Watch, Vec<Diagnostic>> {
         let mut lowered = Vec::new();
         let mut faults = Vec::new();
         for text in terms {
-            match lower(asked, text, places[text]) {
+            match lower(asked, text, &places[text]) {
                 Ok(term) => lowered.push(term),
                 // A term with `{}` stands for many; its faults are reported once.
                 Err(found) => found.into_iter().for_each(|fault| {
@@ -64,17 +64,16 @@ impl Watch {
     }
 }
 
-fn lower(asked: &mut Overlay, text: &str, place: Span) -> Result<Expression, Vec<Diagnostic>> {
-    // Padding the term with blanks up to its place makes its places those of the file.
-    let padded = " ".repeat(place.start as usize) + text;
-    let parsed = syntax::parse_term(place.file, &padded);
+fn lower(asked: &mut Overlay, text: &str, place: &TermPlace) -> Result<Expression, Vec<Diagnostic>> {
+    let file = place.span.file;
+    let parsed = syntax::parse_term(file, text);
     if has_errors(&parsed.diagnostics) {
         return Err(within(parsed.diagnostics, place));
     }
     let Some(term) = TermFile::cast(parsed.syntax()).and_then(|file| file.term()) else {
-        return Err(vec![specification_fault(place, "a term is expected")]);
+        return Err(vec![specification_fault(place.span, "a term is expected")]);
     };
-    let fragment = Arc::make_mut(&mut asked.model).check_term(place.file, &term);
+    let fragment = Arc::make_mut(&mut asked.model).check_term(file, &term);
     if has_errors(&fragment.diagnostics) {
         return Err(within(fragment.diagnostics, place));
     }
@@ -83,17 +82,16 @@ fn lower(asked: &mut Overlay, text: &str, place: Span) -> Result<Expression, Vec
     lowered.map_err(|faults| within(faults, place))
 }
 
-/// A name put in for `{}` moves what follows it, so places are clamped to the term's place in the file.
-fn within(mut faults: Vec<Diagnostic>, place: Span) -> Vec<Diagnostic> {
-    let kept = |span: &mut Span| {
-        if span.file == place.file {
-            span.start = span.start.clamp(place.start, place.end);
-            span.end = span.end.clamp(span.start, place.end);
+/// Faults of a term, at their places in the file.
+fn within(mut faults: Vec<Diagnostic>, place: &TermPlace) -> Vec<Diagnostic> {
+    let put = |span: &mut Span| {
+        if span.file == place.span.file {
+            *span = place.part(span.start..span.end);
         }
     };
     for fault in &mut faults {
-        kept(&mut fault.primary.span);
-        fault.secondary.iter_mut().for_each(|label| kept(&mut label.span));
+        put(&mut fault.primary.span);
+        fault.secondary.iter_mut().for_each(|label| put(&mut label.span));
     }
     faults
 }
