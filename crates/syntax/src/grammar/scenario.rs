@@ -12,9 +12,6 @@ use crate::parser::Parser;
 
 /// A whole scenario file.
 pub(crate) fn scenario_file(p: &mut Parser<'_>) {
-    if p.at(EOF) {
-        return;
-    }
     header(p);
     while !p.at(EOF) {
         if !command(p) {
@@ -314,7 +311,7 @@ mod tests {
         check(r#"scenario s load "a b.asm""#, expect![[r#"scenario s load "a b.asm""#]]);
         check("scenario s.avalla load ../a/B.asm", expect!["scenario s.avalla load ../a/B.asm"]);
         check("scenario load load load", expect!["scenario load load load"]);
-        check("// nothing", expect![[""]]);
+        check("// nothing", expect!["!expected-token"]);
     }
 
     #[test]
