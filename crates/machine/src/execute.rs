@@ -83,6 +83,8 @@ pub(crate) struct Core {
     pub order_mattered: Option<Span>,
     /// A location was set to undef from outside.
     pub unset: bool,
+    /// A procedure was run from outside that is not the main rule.
+    pub entered: bool,
     /// What may be otherwise in other states that compiled code runs in.
     pub elsewhere: Elsewhere,
     /// Locations may have got other values than by steps since compiled code last ran.

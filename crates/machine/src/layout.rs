@@ -79,14 +79,25 @@ impl Dimension {
     }
 }
 
-/// Lays out all functions; gives the layouts and the number of dense locations. `contents` gives the elements of
-/// a static concrete domain, where they are known. A window, which is memory for locations that may never come up, is
-/// laid out only while there are at most `most` locations.
-pub(crate) fn lay_out(
-    program: &Program,
-    contents: &dyn Fn(DomainId) -> Option<Vec<Value>>,
-    most: u64,
-) -> (Vec<Layout>, u32) {
+/// What is known of the extents of a program's domains.
+pub(crate) struct Extents<'a> {
+    pub program: &'a Program,
+    /// The elements of a static concrete domain, where they are known.
+    pub contents: &'a dyn Fn(DomainId) -> Option<Vec<Value>>,
+    /// By domain: no step makes elements of it, whatever was declared.
+    constant: Vec<bool>,
+}
+
+impl<'a> Extents<'a> {
+    pub fn new(program: &'a Program, contents: &'a dyn Fn(DomainId) -> Option<Vec<Value>>) -> Extents<'a> {
+        Extents { program, contents, constant: program.constant_domains() }
+    }
+}
+
+/// Lays out all functions; gives the layouts and the number of dense locations. A window, which is memory for locations that
+/// may never come up, is laid out only while there are at most `most` locations.
+pub(crate) fn lay_out(extents: &Extents<'_>, most: u64) -> (Vec<Layout>, u32) {
+    let program = extents.program;
     let mut next = 0u32;
     let layouts = program.functions.iter().map(|function| {
         if !has_locations(function) {
@@ -96,10 +107,10 @@ pub(crate) fn lay_out(
             next += 1;
             return Layout::Single(next - 1);
         }
-        let Some((dimensions, len)) = dimensions_of(program, &function.parameters, contents) else {
+        let Some((dimensions, len)) = dimensions_of(extents, &function.parameters) else {
             return Layout::Sparse;
         };
-        let all_inside = || function.parameters.iter().all(|domain| dimension(program, *domain, contents).is_some());
+        let all_inside = || function.parameters.iter().all(|domain| dimension(extents, *domain).is_some());
         if next > u32::MAX / 2 || u64::from(next) + u64::from(len) > most && !all_inside() {
             return Layout::Sparse;
         }
@@ -112,14 +123,10 @@ pub(crate) fn lay_out(
 }
 
 /// The dimensions of an array over these domains and its length, if they are finite and small.
-pub(crate) fn dimensions_of(
-    program: &Program,
-    domains: &[DomainId],
-    contents: &dyn Fn(DomainId) -> Option<Vec<Value>>,
-) -> Option<(Box<[Dimension]>, u32)> {
+pub(crate) fn dimensions_of(extents: &Extents<'_>, domains: &[DomainId]) -> Option<(Box<[Dimension]>, u32)> {
     let dimensions: Box<[Dimension]> = domains
         .iter()
-        .map(|domain| dimension(program, *domain, contents).or_else(|| window(program, *domain, domains.len())))
+        .map(|domain| dimension(extents, *domain).or_else(|| window(extents.program, *domain, domains.len())))
         .collect::<Option<_>>()?;
     let len = dimensions.iter().fold(1u64, |len, dimension| len.saturating_mul(u64::from(dimension.size)));
     (1..=DENSE_LIMIT).contains(&len).then_some((dimensions, len as u32))
@@ -136,23 +143,20 @@ fn has_locations(function: &Function) -> bool {
     }
 }
 
-fn dimension(
-    program: &Program,
-    domain: DomainId,
-    contents: &dyn Fn(DomainId) -> Option<Vec<Value>>,
-) -> Option<Dimension> {
+fn dimension(extents: &Extents<'_>, domain: DomainId) -> Option<Dimension> {
+    let Extents { program, contents, constant } = extents;
     match &program.domain(domain).kind {
         DomainKind::Basic(model::Basic::Boolean) => Some(Dimension { kind: DimensionKind::Boolean, size: 2 }),
         DomainKind::Enum { literals } => {
             Some(Dimension { kind: DimensionKind::Enum(domain), size: literals.len() as u32 })
         }
-        DomainKind::Abstract { elements, dynamic: false } => {
+        DomainKind::Abstract { elements, dynamic } if !dynamic || constant[domain.0 as usize] => {
             Some(Dimension { kind: DimensionKind::Element(domain), size: elements.len() as u32 })
         }
         DomainKind::Concrete { base, .. } => match &program.domain(*base).kind {
             DomainKind::Basic(model::Basic::Integer | model::Basic::Natural) => integers(&contents(domain)?),
-            DomainKind::Basic(_) => dimension(program, *base, contents),
-            DomainKind::Enum { .. } | DomainKind::Abstract { .. } => dimension(program, *base, contents),
+            DomainKind::Basic(_) => dimension(extents, *base),
+            DomainKind::Enum { .. } | DomainKind::Abstract { .. } => dimension(extents, *base),
             _ => None,
         },
         _ => None,

@@ -13,6 +13,7 @@ use crate::fault::{Fault, FaultKind};
 use crate::interrupt::Interrupt;
 use crate::limits::Limits;
 use crate::location::{Location, LocationRef};
+use crate::native;
 use crate::start::AT_START;
 use crate::step::Step;
 use crate::store::Store;
@@ -97,11 +98,13 @@ impl Machine {
     /// # Errors
     /// An initial value that cannot be evaluated.
     pub fn start(&mut self, environment: &mut dyn Environment) -> Result<(), Fault> {
-        let (coverage, exploring, unset) = (self.core.coverage.take(), self.core.exploring, self.core.unset);
+        let Core { exploring, unset, entered, .. } = self.core;
+        let coverage = self.core.coverage.take();
         let elsewhere = std::mem::take(&mut self.core.elsewhere);
         self.core = Core { elsewhere, ..Core::new(&self.program, &self.limits) };
         // The caller may still return to an earlier state, in which locations were set to undef.
-        (self.core.coverage, self.core.exploring, self.core.unset) = (coverage, exploring, unset);
+        (self.core.coverage, self.core.exploring) = (coverage, exploring);
+        (self.core.unset, self.core.entered) = (unset, entered);
         self.steps = 0;
         self.settled = false;
         self.execute(environment, |executor, _| executor.start())
@@ -194,6 +197,10 @@ impl Machine {
         procedure: ProcedureId,
         environment: &mut dyn Environment,
     ) -> Result<(), Fault> {
+        if self.program.main != Some(procedure) && !std::mem::replace(&mut self.core.entered, true) {
+            // Compiled code relies on what the main rule alone leads to.
+            self.drop_code();
+        }
         self.begin();
         if self.has_code(procedure) && self.runs_compiled(environment) {
             return Ok(());
@@ -328,8 +335,9 @@ impl Machine {
         let Location { function, arguments } = location;
         let span = self.program.function(*function).span;
         let kind = self.program.function(*function).kind;
-        if value.is_undef() && !self.core.unset && matches!(kind, FunctionKind::Controlled | FunctionKind::Out) {
-            // Compiled code relies on locations that the program itself never sets to undef.
+        let undefined = value.is_undef() || !native::is_solid(&value);
+        if undefined && !self.core.unset && matches!(kind, FunctionKind::Controlled | FunctionKind::Out) {
+            // Compiled code relies on locations that the program itself never sets to undef, or to what holds it.
             self.core.unset = true;
             self.drop_code();
         }

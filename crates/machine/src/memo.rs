@@ -8,7 +8,7 @@
 
 use program::{DomainId, DomainKind, Effect, FunctionId, FunctionKind, Program, Term, TermId};
 
-use crate::layout::{Dimension, dimensions_of};
+use crate::layout::{Dimension, Extents, dimensions_of};
 use crate::value::Value;
 
 /// LIMIT: definitions of fewer terms are evaluated each time.
@@ -51,13 +51,14 @@ impl Memo {
     pub fn lay_out(&mut self, program: &Program, contents: &dyn Fn(DomainId) -> Option<Vec<Value>>) {
         let repeatable = closed_under(program, &|term| is_repeatable(program, term));
         let fixed = fixed_functions(program);
+        let extents = Extents::new(program, contents);
         let mut next = 0u32;
         for (index, function) in program.functions.iter().enumerate() {
             let Some(definition) = &function.definition else { continue };
             if !repeatable[index] || size(program, definition.body, WORTH_KEEPING) < WORTH_KEEPING {
                 continue;
             }
-            let Some((dimensions, len)) = dimensions_of(program, &function.parameters, contents) else { continue };
+            let Some((dimensions, len)) = dimensions_of(&extents, &function.parameters) else { continue };
             self.shelves[index] = Some(Shelf { base: next, dimensions, for_good: fixed[index] });
             next += len;
         }

@@ -58,6 +58,7 @@ impl Core {
             unordered: std::sync::Arc::default(),
             order_mattered: None,
             unset: false,
+            entered: false,
             elsewhere: crate::elsewhere::Elsewhere::default(),
             disturbed: true,
             journal: None,

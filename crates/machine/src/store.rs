@@ -11,7 +11,7 @@ use hashbrown::HashMap;
 use program::{DomainId, FunctionId, Program};
 use rustc_hash::FxBuildHasher;
 
-use crate::layout::{Layout, LocationIndex, lay_out};
+use crate::layout::{Extents, Layout, LocationIndex, lay_out};
 use crate::location::{Location, LocationRef};
 use crate::value::Value;
 
@@ -94,7 +94,7 @@ impl Clone for Store {
 impl Store {
     /// A store whose locations are all undef; `most` is the limit of their number.
     pub(crate) fn new(program: &Program, contents: &dyn Fn(DomainId) -> Option<Vec<Value>>, most: u64) -> Store {
-        let (layouts, dense) = lay_out(program, contents, most);
+        let (layouts, dense) = lay_out(&Extents::new(program, contents), most);
         let owners = layouts.iter().zip(0..).filter_map(|(layout, function)| {
             let first = match layout {
                 Layout::Single(index) => *index,

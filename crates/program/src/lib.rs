@@ -5,12 +5,14 @@
 //! [`Builtin`]s. It must not know values, states or how a step is made.
 
 mod builtin;
+mod certain;
 mod dump;
 mod ir;
 mod lower;
 mod verify;
 
 pub use builtin::{Builtin, BuiltinInfo, Cpp, Effect, Kind, LooksThrough, Operands, ShowsOrder, TemporalOperator};
+pub use certain::{Certain, Certainty, Entered, Locations};
 pub use dump::dump;
 pub use ir::*;
 pub use lower::{IDS, lower, lower_location, lower_rule, lower_term};

@@ -19,8 +19,8 @@ pub(super) enum Walk {
     Numbers(Kind, i64, i64),
     /// `count` integers from `low` on, which lie within bounds where these are known.
     Span { low: ir::Value, count: ir::Value, range: Option<(i64, i64)> },
-    /// `count` values from an address on.
-    Values { start: ir::Value, count: ir::Value, kind: Option<Kind> },
+    /// `count` values from an address on, none of them undef if they are `solid`.
+    Values { start: ir::Value, count: ir::Value, kind: Option<Kind>, solid: bool },
 }
 
 /// What becomes of the items ([`crate::native::items`]) that a round of a loop has gathered.
@@ -91,11 +91,12 @@ impl Translator<'_, '_> {
                 let value = self.builder.ins().iadd(low, now);
                 Bound::Scalar(Scalar { range, ..Scalar::defined(Kind::Integer, value) })
             }
-            Walk::Values { start, kind, .. } => {
+            Walk::Values { start, kind, solid, .. } => {
                 let place = self.element(start, now, 4);
-                match kind {
-                    Some(kind) => Bound::Scalar(self.unboxed(place, kind)),
-                    None => Bound::Boxed(place),
+                match (kind, solid) {
+                    (Some(kind), true) => Bound::Scalar(self.unboxed_defined(place, kind)),
+                    (Some(kind), false) => Bound::Scalar(self.unboxed(place, kind)),
+                    (None, _) => Bound::Boxed(place),
                 }
             }
         };
@@ -149,15 +150,29 @@ impl Translator<'_, '_> {
         if let Some(walk) = self.walk_span(range) {
             return walk;
         }
-        let kind = match &program.domain(program.term_domain(range)).kind {
-            DomainKind::Powerset(of) | DomainKind::Seq(of) | DomainKind::Bag(of) => self.kind(*of),
-            _ => None,
+        let (collection, kind) = match &program.domain(program.term_domain(range)).kind {
+            DomainKind::Powerset(of) => (Some(CollectionKind::Set), self.kind(*of)),
+            DomainKind::Seq(of) => (Some(CollectionKind::Seq), self.kind(*of)),
+            DomainKind::Bag(of) => (None, self.kind(*of)),
+            _ => (None, None),
         };
+        let solid = kind.is_some() && self.certain(range).solid;
+        if let (Some(of), false) = (collection, overwritten)
+            && let Some(Items { start, count, .. }) = self.items_of_location(range, of)
+        {
+            return Walk::Values { start, count, kind, solid };
+        }
         match self.term(range) {
-            Operand::Items(Items { start, count, .. }) => Walk::Values { start, count, kind },
+            Operand::Items(Items { start, count, .. }) => Walk::Values { start, count, kind, solid },
             operand => {
-                let collection = if overwritten { self.pinned(operand) } else { self.boxed(operand) };
-                self.walk_collection(collection, kind)
+                let pointer = if overwritten { self.pinned(operand) } else { self.boxed(operand) };
+                match collection {
+                    Some(of) => {
+                        let Items { start, count, .. } = self.items_of(Operand::Boxed(pointer), of);
+                        Walk::Values { start, count, kind, solid }
+                    }
+                    None => self.walk_collection(pointer, kind),
+                }
             }
         }
     }
@@ -166,12 +181,13 @@ impl Translator<'_, '_> {
     fn walk_made(&mut self, range: TermId) -> Walk {
         let (mark, gatherers) = (self.field(Offset::item), self.gatherers);
         match self.walk(range, false) {
-            Walk::Values { start, count, kind } if self.gatherers > gatherers => {
+            Walk::Values { start, count, kind, solid } if self.gatherers > gatherers => {
                 // What a round of an outer loop walks is its own.
                 let items = Items { start, count, kind: CollectionKind::Seq };
                 let collection = self.made(items);
                 self.set_field(Offset::item, mark);
-                self.walk_collection(collection, kind)
+                let Items { start, count, .. } = self.items_of(Operand::Boxed(collection), CollectionKind::Seq);
+                Walk::Values { start, count, kind, solid }
             }
             walk => {
                 self.give_back(mark, gatherers);
@@ -211,7 +227,7 @@ impl Translator<'_, '_> {
         self.note_kept();
         self.call_or_bail(helper::RANGE, [self.context, collection, out]);
         let (start, count) = (self.load(types::I64, out, 0), self.load(types::I64, out, 8));
-        Walk::Values { start, count, kind }
+        Walk::Values { start, count, kind, solid: false }
     }
 
     /// The kind and the bounds of a range that is a domain of consecutive numbers.
@@ -232,7 +248,8 @@ impl Translator<'_, '_> {
             let (start, count) = (self.address(elements.as_ptr()), self.word(elements.len() as i64));
             let kind = self.kind(domain);
             self.plan.pin(elements);
-            return Walk::Values { start, count, kind };
+            // The elements of a domain are values.
+            return Walk::Values { start, count, kind, solid: true };
         }
         let id = self.word(i64::from(domain.0));
         let elements = self.call_for_value(helper::ELEMENTS, [self.context, id]);

@@ -16,12 +16,15 @@ use program::{Expression, FunctionId, ProcedureId, Program, RuleId};
 
 use crate::execute::Core;
 use crate::native::context::Context;
+use crate::native::facts::Facts;
 use crate::native::helper::{Helpers, signature};
+use crate::native::nesting::UnitKey;
 use crate::native::numbered::Numbered;
-use crate::native::plan::{Facts, Plan, UnitKey};
+use crate::native::plan::Plan;
 use crate::native::settled::unsettled;
 use crate::native::translate::Translator;
 use crate::native::unit;
+use crate::native::unused::drop_unused_loads;
 use crate::weighed::Items;
 
 /// A compiled entry: the context, to a status. It is zero where the step has been computed, or the condition is true, and not where
@@ -206,6 +209,7 @@ fn define(
         translator.builder.seal_all_blocks();
         translator.builder.finalize();
     }
+    drop_unused_loads(&mut code.func);
     module.define_function(id, &mut code).ok()?;
     module.clear_context(&mut code);
     Some(())

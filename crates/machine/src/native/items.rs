@@ -9,6 +9,7 @@ use cranelift_codegen::ir::condcodes::IntCC;
 use cranelift_codegen::ir::{self, InstBuilder, types};
 use program::{Binder, BinderList, Builtin, CollectionKind, DomainKind, Quantifier, Term, TermId};
 
+use crate::native::anatomy::Anatomy;
 use crate::native::binder::Between;
 use crate::native::comprehension::number_of;
 use crate::native::context::Offset;
@@ -95,6 +96,15 @@ impl Translator<'_, '_> {
             return items;
         }
         let collection = self.boxed(operand);
+        if let Some((anatomy, tag)) = Anatomy::of_values().and_then(|anatomy| Some((anatomy, anatomy.tag(kind)?))) {
+            let found = self.load(types::I64, collection, 0);
+            let fits = self.builder.ins().icmp_imm(IntCC::Equal, found, tag);
+            self.require(fits);
+            let shared = self.load(types::I64, collection, 8);
+            let start = self.load(types::I64, shared, anatomy.start);
+            let count = self.load(types::I64, shared, anatomy.count);
+            return Items { start, count, kind };
+        }
         let out = self.scratch(2);
         let number = self.word(number_of(kind));
         self.call_or_bail(helper::ITEMS, [collection, number, out]);
@@ -197,8 +207,43 @@ impl Translator<'_, '_> {
             DomainKind::Powerset(_) => CollectionKind::Set,
             _ => CollectionKind::Seq,
         };
+        if let Some(items) = self.items_of_location(id, kind) {
+            return items;
+        }
         let operand = self.term(id);
         self.items_of(operand, kind)
+    }
+
+    /// The items of a collection that a location holds, which need not be kept: none where the location always has a place, or it is
+    /// not known beforehand whether it has a value.
+    pub fn items_of_location(&mut self, id: TermId, kind: CollectionKind) -> Option<Items> {
+        let program = self.program;
+        let Term::Read { function, arguments } = program.term(id) else { return None };
+        if !self.is_read_at_once(*function) {
+            return None;
+        }
+        let arguments = self.terms(*arguments);
+        let Some((index, inside)) = self.place_of(*function, &arguments) else {
+            let operand = self.read(*function, &arguments, id);
+            return Some(self.items_of(operand, kind));
+        };
+        let (start, count) = (self.variable(types::I64), self.variable(types::I64));
+        let (there, elsewhere, done) = (self.block(), self.block(), self.block());
+        self.builder.set_cold_block(elsewhere);
+        self.branch(inside, there, elsewhere);
+        self.switch(there);
+        let items = self.items_of(Operand::Stored(index), kind);
+        self.set(start, items.start);
+        self.set(count, items.count);
+        self.jump(done);
+        self.switch(elsewhere);
+        let operand = self.read_elsewhere(*function, &arguments, None);
+        let items = self.items_of(operand, kind);
+        self.set(start, items.start);
+        self.set(count, items.count);
+        self.jump(done);
+        self.switch(done);
+        Some(Items { start: self.get(start), count: self.get(count), kind })
     }
 
     /// Adds copies of items.
@@ -209,12 +254,44 @@ impl Translator<'_, '_> {
 
     /// The items of these terms together.
     fn joined(&mut self, terms: &[TermId], kind: CollectionKind) -> Operand {
+        let mark = self.field(Offset::item);
         let all: Vec<Items> = terms.iter().map(|term| self.gather(*term)).collect();
+        if let ([first, second], CollectionKind::Seq) = (&all[..], kind) {
+            return Operand::Items(self.concatenated(mark, *first, *second));
+        }
         let mark = self.field(Offset::item);
         for items in all {
             self.extend(items);
         }
         Operand::Items(self.gathered(mark, kind))
+    }
+
+    /// One sequence behind the other. Often they stand so already: both were gathered, the second right behind the first.
+    fn concatenated(&mut self, mark: ir::Value, first: Items, second: Items) -> Items {
+        let (start, count) = (self.variable(types::I64), self.variable(types::I64));
+        let (together, apart, done) = (self.block(), self.block(), self.block());
+        let items = self.field(Offset::items);
+        let bottom = self.element(items, mark, 4);
+        let behind = self.element(first.start, first.count, 4);
+        let begins = self.builder.ins().icmp(IntCC::Equal, first.start, bottom);
+        let follows = self.builder.ins().icmp(IntCC::Equal, second.start, behind);
+        let adjoin = self.builder.ins().band(begins, follows);
+        self.branch(adjoin, together, apart);
+        self.switch(together);
+        let both = self.builder.ins().iadd(first.count, second.count);
+        self.set(start, first.start);
+        self.set(count, both);
+        self.jump(done);
+        self.switch(apart);
+        let mark = self.field(Offset::item);
+        self.extend(first);
+        self.extend(second);
+        let made = self.gathered(mark, CollectionKind::Seq);
+        self.set(start, made.start);
+        self.set(count, made.count);
+        self.jump(done);
+        self.switch(done);
+        Items { start: self.get(start), count: self.get(count), kind: CollectionKind::Seq }
     }
 
     fn size(&mut self, id: TermId) -> Scalar {

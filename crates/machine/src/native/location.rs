@@ -44,7 +44,7 @@ impl Translator<'_, '_> {
             };
             let scalar = match argument {
                 Operand::Scalar(scalar) if scalar.kind == kind => *scalar,
-                Operand::Boxed(_) | Operand::Stored(_) => self.scalar(*argument, kind),
+                Operand::Boxed(_) | Operand::Shelved(_) | Operand::Stored(_) => self.scalar(*argument, kind),
                 _ => return None,
             };
             let mut checks = Vec::from_iter(scalar.flag);
@@ -55,7 +55,8 @@ impl Translator<'_, '_> {
                 if low != 0 {
                     index = self.builder.ins().iadd_imm(index, low.wrapping_neg());
                 }
-                let fits = scalar.range.is_some_and(|(a, b)| low <= a && b < low + size);
+                let bounds = self.plan.bounds(self.program, scalar);
+                let fits = bounds.is_some_and(|(a, b)| low <= a && b < low + size);
                 if !fits {
                     checks.push(self.builder.ins().icmp_imm(IntCC::UnsignedLessThan, index, size));
                 }
@@ -123,7 +124,11 @@ impl Translator<'_, '_> {
                 (None, Some(index), Some(kind)) => {
                     let index = self.word(i64::from(index));
                     let place = self.stored(index);
-                    return Operand::Scalar(self.stored_scalar(place, kind));
+                    let unit = self.frames.last().and_then(|frame| frame.unit);
+                    return Operand::Scalar(match unit.is_some_and(|unit| self.plan.runs_by_agent(unit)) {
+                        true => Scalar::defined(kind, self.payload(place, kind)),
+                        false => self.stored_scalar(place, kind),
+                    });
                 }
                 _ => {}
             }
@@ -165,75 +170,150 @@ impl Translator<'_, '_> {
                     }
                     _ => (self.stored(index), 0),
                 };
-                if self.plan.facts.total[function.0 as usize] {
-                    let value = self.payload_at(place, offset, kind);
-                    return Operand::Scalar(Scalar::defined(kind, value));
-                }
-                Operand::Scalar(self.stored_scalar_at(place, offset, kind))
+                let certain = self.plan.certainty.at_place(function);
+                let range = certain.bounds.filter(|_| kind == Kind::Integer);
+                let scalar = match certain.defined {
+                    true => Scalar::defined(kind, self.payload_at(place, offset, kind)),
+                    false => self.stored_scalar_at(place, offset, kind),
+                };
+                Operand::Scalar(Scalar { range, ..scalar })
             }
             (None, false, None) => Operand::Stored(index),
             (inside, conditional, kind) => {
-                let pointer = self.variable(types::I64);
-                let (fast, slow, done) = (self.block(), self.block(), self.block());
+                let slow = self.block();
                 self.builder.set_cold_block(slow);
                 if let Some(inside) = inside {
+                    // An index outside the array must not be read.
                     let next = self.block();
                     self.branch(inside, next, slow);
                     self.switch(next);
                 }
                 if conditional {
-                    // An index outside the array must not be read: it is looked at only behind `inside`.
-                    let ready = match declared.kind {
-                        FunctionKind::Monitored => {
-                            let given = self.field(Offset::given);
-                            let place = self.element(given, index, 2);
-                            let given = self.builder.ins().uload32(FLAGS, place, 0);
-                            let epoch = self.field(Offset::epoch);
-                            self.builder.ins().icmp(IntCC::Equal, given, epoch)
-                        }
-                        FunctionKind::Shared => {
-                            let place = self.stored(index);
-                            let tag = self.load(types::I64, place, 0);
-                            self.builder.ins().icmp_imm(IntCC::NotEqual, tag, 0)
-                        }
-                        _ => self.has_initial(index),
-                    };
-                    if declared.kind == FunctionKind::Monitored {
-                        let ask = self.block();
-                        self.branch(ready, fast, ask);
-                        self.switch(ask);
-                        let pointers = self.pointers(arguments);
-                        let (id, count) = (self.word(i64::from(function.0)), self.word(arguments.len() as i64));
-                        self.call_or_bail(helper::ASK, [self.context, id, pointers, count, index]);
-                        self.jump(fast);
-                    } else {
-                        self.branch(ready, fast, slow);
-                    }
-                } else {
-                    self.jump(fast);
+                    self.be_ready(function, arguments, index, slow);
                 }
-                self.switch(fast);
-                let place = self.stored(index);
-                self.set(pointer, place);
-                self.jump(done);
-                self.switch(slow);
-                let pointers = self.pointers(arguments);
-                let (id, count) = (self.word(i64::from(function.0)), self.word(arguments.len() as i64));
-                let value = self.call_for_value(helper::READ, [self.context, id, pointers, count]);
-                self.set(pointer, value);
-                self.jump(done);
-                self.switch(done);
-                let pointer = self.get(pointer);
                 match kind {
-                    Some(kind) => Operand::Scalar(self.stored_scalar(pointer, kind)),
-                    None => {
-                        // The store may grow before the value is used.
-                        let pinned = self.call_for_value(helper::KEEP, [self.context, pointer]);
-                        Operand::Boxed(pinned)
-                    }
+                    Some(kind) => Operand::Scalar(self.read_either(function, arguments, (index, slow), kind)),
+                    None => Operand::Boxed(self.keep_either(function, arguments, (index, slow))),
                 }
             }
         }
+    }
+
+    /// Goes on where a location has the value that it is to be read with: an input is asked for, and what else has no value yet is read in
+    /// the block `slow`.
+    fn be_ready(&mut self, function: FunctionId, arguments: &[Operand], index: ir::Value, slow: ir::Block) {
+        let fast = self.block();
+        match self.program.function(function).kind {
+            FunctionKind::Monitored => {
+                let given = self.field(Offset::given);
+                let place = self.element(given, index, 2);
+                let given = self.builder.ins().uload32(FLAGS, place, 0);
+                let epoch = self.field(Offset::epoch);
+                let ready = self.builder.ins().icmp(IntCC::Equal, given, epoch);
+                let ask = self.block();
+                self.branch(ready, fast, ask);
+                self.switch(ask);
+                let pointers = self.pointers(arguments);
+                let (id, count) = (self.word(i64::from(function.0)), self.word(arguments.len() as i64));
+                self.call_or_bail(helper::ASK, [self.context, id, pointers, count, index]);
+                self.jump(fast);
+            }
+            FunctionKind::Shared => {
+                let place = self.stored(index);
+                let tag = self.load(types::I64, place, 0);
+                let ready = self.builder.ins().icmp_imm(IntCC::NotEqual, tag, 0);
+                self.branch(ready, fast, slow);
+            }
+            FunctionKind::Static
+            | FunctionKind::Derived
+            | FunctionKind::Controlled
+            | FunctionKind::Out
+            | FunctionKind::Local => {
+                let ready = self.has_initial(index);
+                self.branch(ready, fast, slow);
+            }
+        }
+        self.switch(fast);
+    }
+
+    /// A scalar at a place, or, from the block `slow` on, wherever the machine finds it.
+    fn read_either(
+        &mut self,
+        function: FunctionId,
+        arguments: &[Operand],
+        (index, slow): (ir::Value, ir::Block),
+        kind: Kind,
+    ) -> Scalar {
+        let (value, flag, done) = (self.variable(kind.register()), self.variable(types::I8), self.block());
+        // An initial value that is still to come is certain of nothing that the others are not.
+        let certain = self.plan.certainty.function(function);
+        let place = self.stored(index);
+        let leave = |this: &mut Self, place: ir::Value| {
+            let there = match certain.defined {
+                true => Scalar::defined(kind, this.payload(place, kind)),
+                false => this.stored_scalar(place, kind),
+            };
+            this.set(value, there.value);
+            if let Some(fits) = there.flag {
+                this.set(flag, fits);
+            }
+        };
+        leave(self, place);
+        self.jump(done);
+        self.switch(slow);
+        // What the machine finds is kept no longer than it takes to look at it: the code around has nothing to release.
+        let mark = self.field(Offset::temporary);
+        let pointers = self.pointers(arguments);
+        let (id, count) = (self.word(i64::from(function.0)), self.word(arguments.len() as i64));
+        let found = self.call(helper::READ, [self.context, id, pointers, count]);
+        self.require(found);
+        leave(self, found);
+        self.call(helper::RELEASE, [self.context, mark]);
+        self.jump(done);
+        self.switch(done);
+        let range = certain.bounds.filter(|_| kind == Kind::Integer);
+        let flag = if certain.defined { None } else { Some(self.get(flag)) };
+        Scalar { kind, value: self.get(value), flag, range }
+    }
+
+    /// The same for other values, kept for the statement: the store may grow before the value is used.
+    fn keep_either(
+        &mut self,
+        function: FunctionId,
+        arguments: &[Operand],
+        (index, slow): (ir::Value, ir::Block),
+    ) -> ir::Value {
+        let (pointer, done) = (self.variable(types::I64), self.block());
+        let place = self.stored(index);
+        self.set(pointer, place);
+        self.jump(done);
+        self.switch(slow);
+        let pointers = self.pointers(arguments);
+        let (id, count) = (self.word(i64::from(function.0)), self.word(arguments.len() as i64));
+        let value = self.call_for_value(helper::READ, [self.context, id, pointers, count]);
+        self.set(pointer, value);
+        self.jump(done);
+        self.switch(done);
+        let pointer = self.get(pointer);
+        self.call_for_value(helper::KEEP, [self.context, pointer])
+    }
+
+    /// Whether reading a function asks nobody and computes nothing, wherever its locations have a place.
+    pub fn is_read_at_once(&self, function: FunctionId) -> bool {
+        let (index, facts) = (function.0 as usize, &self.plan.facts);
+        let declared = self.program.function(function);
+        matches!(declared.kind, FunctionKind::Controlled | FunctionKind::Out)
+            && Some(function) != self.program.self_function
+            && declared.element.is_none()
+            && facts.plain[index]
+            && !facts.lazy[index]
+            && facts.settled[index].is_none()
+    }
+
+    /// The number of a location that may have no place, and a byte that is zero where it has none; none where it always or never has.
+    pub fn place_of(&mut self, function: FunctionId, arguments: &[Operand]) -> Option<(ir::Value, ir::Value)> {
+        let Found { index, inside, .. } = self.find(function, arguments)?;
+        Some((index, inside?))
     }
 
     /// Whether the initial value of a location is there.
@@ -244,7 +324,7 @@ impl Translator<'_, '_> {
         self.builder.ins().icmp_imm(IntCC::NotEqual, given, 0)
     }
 
-    fn read_elsewhere(&mut self, function: FunctionId, arguments: &[Operand], kind: Option<Kind>) -> Operand {
+    pub fn read_elsewhere(&mut self, function: FunctionId, arguments: &[Operand], kind: Option<Kind>) -> Operand {
         let pointers = self.pointers(arguments);
         let (id, count) = (self.word(i64::from(function.0)), self.word(arguments.len() as i64));
         let value = self.call_for_value(helper::READ, [self.context, id, pointers, count]);
@@ -440,7 +520,7 @@ impl Translator<'_, '_> {
                 self.store(tag, entry, at);
                 self.store(payload, entry, at + 8);
             }
-            Operand::Boxed(_) | Operand::Stored(_) | Operand::Items(_) => {
+            Operand::Boxed(_) | Operand::Shelved(_) | Operand::Stored(_) | Operand::Items(_) => {
                 let pointer = self.boxed(value);
                 let place = self.builder.ins().iadd_imm(entry, i64::from(at));
                 self.call(helper::COPY, [self.context, pointer, place]);

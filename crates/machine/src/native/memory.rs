@@ -3,7 +3,11 @@
 //! In: what the code refers to, which is the same for all machines. Out: the data that the code and its helpers change: tables as far as they are
 //! filled, and what is open in the running step.
 
+use std::hash::{Hash, Hasher};
 use std::sync::Arc;
+
+use program::CollectionKind;
+use rustc_hash::FxHasher;
 
 use crate::memo::Version;
 use crate::native::numbered::Numbered;
@@ -29,7 +33,13 @@ pub(super) struct Memory {
     pub sequences: Vec<(Sequence, Version)>,
     /// Comprehensions whose elements are being collected, the innermost last.
     pub collections: Vec<Collected>,
+    /// Small collections that were made lately, by a hash of their items: what is made again is the same value.
+    lately: Box<[Value]>,
 }
+
+/// LIMIT: so many collections are found again, of at most so many items.
+const LATELY: usize = 256;
+const SMALL: usize = 8;
 
 /// The values of a fixed term, as far as they were asked for. INVARIANT: its arrays stay where they are.
 #[derive(Debug)]
@@ -37,6 +47,15 @@ struct Table {
     /// By entry: 1 where it has been evaluated.
     states: Box<[u8]>,
     values: Box<[Value]>,
+}
+
+/// What stands where a small collection may have been put.
+#[derive(Debug)]
+pub(super) enum Lately<'m> {
+    /// The collection.
+    Made(&'m Value),
+    /// Something else, which it is to replace.
+    Free(&'m mut Value),
 }
 
 /// The elements of a comprehension so far.
@@ -69,6 +88,7 @@ impl Memory {
             units: Vec::new(),
             sequences: Vec::new(),
             collections: Vec::new(),
+            lately: vec![Value::Undef; LATELY].into_boxed_slice(),
         }
     }
 
@@ -82,6 +102,22 @@ impl Memory {
         let table = &mut self.tables[table];
         table.values[entry] = value;
         table.states[entry] = 1;
+    }
+
+    /// Where a collection of these items stands if it was made lately, or is to be put when it is made.
+    pub fn lately(&mut self, kind: CollectionKind, items: &[Value]) -> Option<Lately<'_>> {
+        if items.len() > SMALL {
+            return None;
+        }
+        let mut hasher = FxHasher::default();
+        (kind as u8).hash(&mut hasher);
+        items.iter().for_each(|item| item.hash(&mut hasher));
+        let place = &mut self.lately[(hasher.finish() >> 32) as usize % LATELY];
+        let same = match (&*place, kind) {
+            (Value::Seq(made), CollectionKind::Seq) | (Value::Set(made), CollectionKind::Set) => made[..] == *items,
+            _ => false,
+        };
+        Some(if same { Lately::Made(place) } else { Lately::Free(place) })
     }
 
     /// Forgets what an abandoned step left.

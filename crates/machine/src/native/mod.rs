@@ -7,19 +7,24 @@
 //! piece of code, and a program needs no translation for what is rare. See docs/adr/0003-compiled-engine.md.
 #![allow(unsafe_code)]
 
+mod anatomy;
 mod arithmetic;
 mod binder;
+mod cases;
 mod code;
 mod commit;
 mod comprehension;
 mod constant;
 mod context;
+mod facts;
 mod gathered;
+mod grounds;
 mod helper;
 mod items;
 mod kleene;
 mod location;
 mod memory;
+mod nesting;
 mod numbered;
 mod plan;
 mod rule;
@@ -27,9 +32,9 @@ mod runtime;
 mod settled;
 mod shape;
 mod term;
-mod total;
 mod translate;
 mod unit;
+mod unused;
 
 use std::sync::{Arc, OnceLock};
 
@@ -38,6 +43,7 @@ use crate::step::Passed;
 pub(crate) use code::{Code, Subject};
 pub(crate) use commit::apply;
 use context::Context;
+pub(crate) use facts::is_solid;
 use memory::Memory;
 
 /// LIMIT: after so many steps the share of abandoned ones decides whether the code is used further.

@@ -7,26 +7,22 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicU8;
 
 use cranelift_module::FuncId;
-use program::{Builtin, DomainId, DomainKind, FunctionId, ProcedureId, Program, Rule, RuleId, Term, TermId};
+use program::{
+    Builtin, Certain, Certainty, DomainId, DomainKind, Effect, FunctionId, ProcedureId, Program, Rule, RuleId, Slot,
+    Term, TermId,
+};
 
 use crate::execute::Core;
 use crate::layout::Layout;
-use crate::membership::Membership;
-use crate::memo::{self, Shelf};
+use crate::memo;
+use crate::native::facts::Facts;
+use crate::native::grounds::Grounds;
 use crate::native::helper::Helpers;
+use crate::native::nesting::{Nesting, UnitKey};
 use crate::native::numbered::{Fixed, Numbered};
-use crate::native::settled::settled_functions;
 use crate::native::shape::{Kind, Scalar, consecutive};
-use crate::native::total::total_functions;
 use crate::value::Value;
 use crate::weighed::Items;
-
-/// What is translated as one body.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub(super) enum UnitKey {
-    Procedure(ProcedureId),
-    Definition(FunctionId),
-}
 
 /// LIMIT: a body of more terms and rules is translated once, where it is called from more than one place.
 const INLINE: usize = 12;
@@ -39,40 +35,6 @@ const TABLE: i64 = 1 << 16;
 
 static UNDEF: Value = Value::Undef;
 
-/// What code relies on of the machine that runs it.
-#[derive(Debug, PartialEq)]
-pub(super) struct Facts {
-    pub layouts: Vec<Layout>,
-    pub codomains: Vec<Membership>,
-    pub contents: Vec<Option<Arc<Items>>>,
-    /// By function: read without asking anybody.
-    pub plain: Vec<bool>,
-    /// By function: some initial values are still to be evaluated.
-    pub lazy: Vec<bool>,
-    /// By function: never undef at its numbered locations.
-    pub total: Vec<bool>,
-    pub shelves: Vec<Option<Shelf>>,
-    /// By function: the values at its numbered locations, where they stay as they are.
-    pub settled: Vec<Option<Arc<Items>>>,
-}
-
-impl Facts {
-    /// Those of a started machine.
-    pub fn of(program: &Program, core: &Core) -> Facts {
-        let lazy: Vec<bool> = (0..program.functions.len()).map(|index| is_lazy(core, index)).collect();
-        Facts {
-            layouts: core.store.layouts.to_vec(),
-            settled: settled_functions(program, core, &lazy),
-            codomains: core.codomains.clone(),
-            contents: core.contents.clone(),
-            plain: core.plain.clone(),
-            lazy,
-            total: total_functions(program, core),
-            shelves: core.memo.shelves().to_vec(),
-        }
-    }
-}
-
 /// The knowledge of one compilation.
 #[derive(Debug)]
 pub(super) struct Plan {
@@ -81,6 +43,7 @@ pub(super) struct Plan {
     pub helpers: Helpers,
     pub constants: Arc<Items>,
     pub facts: Facts,
+    pub certainty: Certainty,
     /// By function: its definition depends on no state.
     fixed: Vec<bool>,
     /// By domain: it has the same elements in all states.
@@ -88,6 +51,7 @@ pub(super) struct Plan {
     /// How often each unit is called in the program's text.
     procedure_calls: Vec<u32>,
     definition_calls: Vec<u32>,
+    pub nesting: Nesting,
     pub units: Vec<(UnitKey, FuncId)>,
     pub queue: Vec<(UnitKey, FuncId)>,
     pub numbered: Numbered,
@@ -97,6 +61,9 @@ pub(super) struct Plan {
     pub ran: Box<[AtomicU8]>,
     /// Some term may gather items.
     pub gathers: bool,
+    /// While a term is evaluated, kept values of definitions may be replaced by those of another state: of that before the step, or of
+    /// the initial one.
+    pub visits: bool,
 }
 
 impl Plan {
@@ -120,21 +87,26 @@ impl Plan {
             }
         }
         let constants = Arc::new(Items::new(core.constants.clone()));
+        let (facts, constant) = (Facts::of(program, core), program.constant_domains());
+        let certainty = Grounds { program, facts: &facts, constant: &constant }.certainty();
         Plan {
             main,
             helpers,
             constants: Arc::clone(&constants),
-            facts: Facts::of(program, core),
+            facts,
+            certainty,
             fixed: memo::fixed_functions(program),
-            constant: program.constant_domains(),
+            constant,
             procedure_calls,
             definition_calls,
+            nesting: Nesting::of(program),
             units: Vec::new(),
             queue: Vec::new(),
             numbered: Numbered::default(),
             pinned: vec![constants],
             ran: Box::default(),
             gathers: program.terms.iter().any(may_gather),
+            visits: core.origin.is_some() || program.terms.iter().any(reads_before),
         }
     }
 
@@ -171,6 +143,20 @@ impl Plan {
             }
             _ => self.facts.contents[domain.0 as usize].as_ref().and_then(|values| consecutive(values)),
         }
+    }
+
+    /// Whether agents alone run a unit: within it, `self` is one.
+    pub fn runs_by_agent(&self, key: UnitKey) -> bool {
+        match key {
+            UnitKey::Procedure(id) => self.certainty.procedure_is_of_agents(id),
+            UnitKey::Definition(id) => self.certainty.definition_is_of_agents(id),
+        }
+    }
+
+    /// What is certain of a term's value, given what is of the variables that occur in it.
+    pub fn certain(&self, program: &Program, term: TermId, free: &dyn Fn(Slot) -> Certain) -> Certain {
+        let grounds = Grounds { program, facts: &self.facts, constant: &self.constant };
+        self.certainty.term(program, &grounds, term, free)
     }
 
     /// The numbers that a scalar may have, as far as they are bounded.
@@ -368,6 +354,10 @@ impl Plan {
     }
 }
 
+fn reads_before(term: &Term) -> bool {
+    matches!(term, Term::Builtin { builtin, .. } if builtin.info().effect == Effect::ReadsBefore)
+}
+
 /// Whether a term may give a collection that is not made.
 fn may_gather(term: &Term) -> bool {
     match term {
@@ -377,16 +367,6 @@ fn may_gather(term: &Term) -> bool {
         }
         _ => false,
     }
-}
-
-/// Whether some location of a function that has a number may yet get an initial value.
-fn is_lazy(core: &Core, function: usize) -> bool {
-    core.initials[function].is_some()
-        && match &core.store.layouts[function] {
-            Layout::Single(index) => core.store.given[*index as usize] == 0,
-            Layout::Dense { base, len, .. } => core.store.given[*base as usize..(*base + *len) as usize].contains(&0),
-            Layout::None | Layout::Sparse => true,
-        }
 }
 
 /// Whether evaluating a term anew costs more than looking it up.

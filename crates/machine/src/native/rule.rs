@@ -9,7 +9,7 @@ use program::{
 
 use crate::native::context::Offset;
 use crate::native::helper;
-use crate::native::plan::UnitKey;
+use crate::native::nesting::UnitKey;
 use crate::native::shape::{Bound, Kind, Operand, Scalar};
 use crate::native::translate::{Frame, MARKS, Translator};
 use crate::value::Value;
@@ -90,17 +90,30 @@ impl Translator<'_, '_> {
             Rule::Switch { subject, values, rules } => self.statement(|this| {
                 let (values, rules) = (program.term_list(*values), program.rule_list(*rules));
                 let subject = this.term(*subject);
-                let subject = this.bound(subject).into();
                 let done = this.block();
-                for (value, rule) in values.iter().zip(rules) {
-                    let value = this.term(*value);
-                    let equal = this.equal(subject, value);
-                    let (then, next) = (this.block(), this.block());
-                    this.branch(equal, then, next);
-                    this.switch(then);
-                    this.rule(*rule);
-                    this.jump(done);
-                    this.switch(next);
+                match this.known_cases(subject, values) {
+                    Some((scalar, cases)) => {
+                        let (arms, none) = this.select_case(scalar, &cases);
+                        for (arm, case) in arms.into_iter().zip(&cases) {
+                            this.switch(arm);
+                            this.rule(rules[case.place]);
+                            this.jump(done);
+                        }
+                        this.switch(none);
+                    }
+                    None => {
+                        let subject = this.bound(subject).into();
+                        for (value, rule) in values.iter().zip(rules) {
+                            let value = this.term(*value);
+                            let equal = this.equal(subject, value);
+                            let (then, next) = (this.block(), this.block());
+                            this.branch(equal, then, next);
+                            this.switch(then);
+                            this.rule(*rule);
+                            this.jump(done);
+                            this.switch(next);
+                        }
+                    }
                 }
                 if let Some(rule) = rules.get(values.len()) {
                     this.rule(*rule);

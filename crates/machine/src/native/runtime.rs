@@ -14,7 +14,7 @@
 
 use std::mem::ManuallyDrop;
 
-use program::{CollectionKind, DomainId, FunctionId, RuleId, Term, TermId};
+use program::{DomainId, FunctionId, RuleId, Term, TermId};
 use smallvec::SmallVec;
 use syntax::{FileId, Span};
 
@@ -24,7 +24,7 @@ use crate::execute::{Core, Executor, Outcome};
 use crate::native::commit::is_same_scalar;
 use crate::native::comprehension::kind_of;
 use crate::native::context::Context;
-pub(super) use crate::native::gathered::{arrange, items, position};
+pub(super) use crate::native::gathered::{arrange, extend, items, make, position};
 use crate::native::memory::Collected;
 use crate::update::{Stamp, Update};
 use crate::value::Value;
@@ -364,34 +364,6 @@ pub unsafe extern "C" fn range(context: Pointer, collection: *const Value, out: 
         *out = [items.as_ptr() as u64, items.len() as u64];
     }
     0
-}
-
-/// Adds copies of values to the items of a collection that is not made, where all are scalars and there is room.
-pub unsafe extern "C" fn extend(context: Pointer, start: *const Value, count: u64) -> i64 {
-    // SAFETY: *context*; the values are as many as the code says, and the items that it counts lie below them or elsewhere.
-    unsafe {
-        let values = std::slice::from_raw_parts(start, count as usize);
-        let context = &mut *context;
-        if context.item + count > context.item_capacity || !values.iter().all(Value::is_scalar) {
-            return BAIL;
-        }
-        std::ptr::copy(start, context.items.add(context.item as usize), count as usize);
-        context.item += count;
-    }
-    0
-}
-
-/// Makes the collection of items.
-pub unsafe extern "C" fn make(context: Pointer, start: *const Value, count: u64, kind: i64) -> *const Value {
-    // SAFETY: *context*; the items are as many as the code says, and those of a set sorted and distinct.
-    unsafe {
-        let items = std::slice::from_raw_parts(start, count as usize).to_vec();
-        let value = match kind_of(kind) {
-            CollectionKind::Set => Value::sorted(items),
-            kind => collection(kind, items),
-        };
-        Context::with(context, |executor, context| kept(context, executor.made(value, NOWHERE)))
-    }
 }
 
 /// Begins a `seq`.

@@ -130,6 +130,8 @@ pub(super) enum Operand {
     Boxed(ir::Value),
     /// The number of a location of the store, whose address changes when the store grows.
     Stored(ir::Value),
+    /// A pointer to a kept value of a definition, which stays there as long as the state.
+    Shelved(ir::Value),
     /// A collection that has not been made.
     Items(Items),
 }

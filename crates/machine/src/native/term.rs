@@ -7,7 +7,7 @@ use program::{Builtin, FunctionId, Quantifier, Term, TermId, TermList};
 
 use crate::native::context::Offset;
 use crate::native::helper;
-use crate::native::plan::UnitKey;
+use crate::native::nesting::UnitKey;
 use crate::native::shape::{Bound, Kind, Operand, Scalar};
 use crate::native::translate::{Frame, Translator};
 use crate::value::Value;
@@ -32,7 +32,9 @@ impl Translator<'_, '_> {
         }
         let operand = self.plain_term(id);
         match (operand, self.kind_of(id)) {
-            (Operand::Boxed(_) | Operand::Stored(_), Some(kind)) => Operand::Scalar(self.scalar(operand, kind)),
+            (Operand::Boxed(_) | Operand::Shelved(_) | Operand::Stored(_), Some(kind)) => {
+                Operand::Scalar(self.scalar(operand, kind))
+            }
             _ => operand,
         }
     }
@@ -257,18 +259,32 @@ impl Translator<'_, '_> {
 
     fn switch_term(&mut self, subject: TermId, cases: &[TermId], otherwise: Option<TermId>, id: TermId) -> Operand {
         let subject = self.term(subject);
-        let subject = self.bound(subject).into();
         let done = self.block();
         let mut merge = self.merge(id);
-        for case in cases.chunks_exact(2) {
-            let value = self.term(case[0]);
-            let equal = self.equal(subject, value);
-            let (then, next) = (self.block(), self.block());
-            self.branch(equal, then, next);
-            self.switch(then);
-            let value = self.term(case[1]);
-            self.leave(&mut merge, value, done);
-            self.switch(next);
+        let values: Vec<TermId> = cases.iter().step_by(2).copied().collect();
+        match self.known_cases(subject, &values) {
+            Some((scalar, known)) => {
+                let (arms, none) = self.select_case(scalar, &known);
+                for (arm, case) in arms.into_iter().zip(&known) {
+                    self.switch(arm);
+                    let value = self.term(cases[2 * case.place + 1]);
+                    self.leave(&mut merge, value, done);
+                }
+                self.switch(none);
+            }
+            None => {
+                let subject = self.bound(subject).into();
+                for case in cases.chunks_exact(2) {
+                    let value = self.term(case[0]);
+                    let equal = self.equal(subject, value);
+                    let (then, next) = (self.block(), self.block());
+                    self.branch(equal, then, next);
+                    self.switch(then);
+                    let value = self.term(case[1]);
+                    self.leave(&mut merge, value, done);
+                    self.switch(next);
+                }
+            }
         }
         let value = otherwise.map_or(Operand::Undef, |term| self.term(term));
         self.leave(&mut merge, value, done);

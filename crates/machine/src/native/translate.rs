@@ -11,11 +11,12 @@ use cranelift_codegen::ir::{
 };
 use cranelift_frontend::{FunctionBuilder, Variable};
 use cranelift_jit::JITModule;
-use program::{DomainId, Program, TermId};
+use program::{Certain, DomainId, Program, TermId};
 
 use crate::native::context::Offset;
 use crate::native::helper::{self, Given, Helper};
-use crate::native::plan::{Plan, UnitKey};
+use crate::native::nesting::UnitKey;
+use crate::native::plan::Plan;
 use crate::native::shape::{Bound, Kind, Operand, Scalar};
 use crate::value::Value;
 
@@ -326,7 +327,7 @@ impl<'t, 'f> Translator<'t, 'f> {
                 let undef = self.plan.undef();
                 self.address(undef)
             }
-            Operand::Boxed(pointer) => pointer,
+            Operand::Boxed(pointer) | Operand::Shelved(pointer) => pointer,
             Operand::Stored(index) => self.stored(index),
             Operand::Items(items) => self.made(items),
             Operand::Scalar(scalar) => {
@@ -342,8 +343,8 @@ impl<'t, 'f> Translator<'t, 'f> {
     /// A pointer that stays valid until the statement ends.
     pub fn pinned(&mut self, operand: Operand) -> ir::Value {
         match operand {
-            Operand::Stored(index) => {
-                let place = self.stored(index);
+            Operand::Stored(_) | Operand::Shelved(_) => {
+                let place = self.boxed(operand);
                 self.call_for_value(helper::KEEP, [self.context, place])
             }
             other => self.boxed(other),
@@ -395,6 +396,23 @@ impl<'t, 'f> Translator<'t, 'f> {
         Scalar { kind, value, flag: Some(fits), range: None }
     }
 
+    /// The same of a value that is known to be no undef.
+    pub fn unboxed_defined(&mut self, pointer: ir::Value, kind: Kind) -> Scalar {
+        let tag = self.load(types::I64, pointer, 0);
+        let fits = self.builder.ins().icmp_imm(IntCC::Equal, tag, kind.tag());
+        self.require(fits);
+        Scalar::defined(kind, self.payload(pointer, kind))
+    }
+
+    /// What is certain of a term's value here.
+    pub fn certain(&self, term: TermId) -> Certain {
+        let slots = self.frames.last().map_or(&[][..], |frame| &frame.slots[..]);
+        self.plan.certain(self.program, term, &|slot| match slots.get(slot.0 as usize) {
+            Some(Bound::Scalar(Scalar { flag: None, .. })) => Certain::DEFINED,
+            Some(Bound::Scalar(_) | Bound::Boxed(_) | Bound::Items(_) | Bound::Undef) | None => Certain::NOTHING,
+        })
+    }
+
     /// An operand as a scalar of a kind, if it can be one.
     pub fn scalar(&mut self, operand: Operand, kind: Kind) -> Scalar {
         match operand {
@@ -410,9 +428,8 @@ impl<'t, 'f> Translator<'t, 'f> {
                 self.give_up();
                 Scalar::defined(kind, value)
             }
-            Operand::Boxed(pointer) => self.unboxed(pointer, kind),
-            Operand::Stored(index) => {
-                let place = self.stored(index);
+            Operand::Boxed(_) | Operand::Shelved(_) | Operand::Stored(_) => {
+                let place = self.boxed(operand);
                 self.unboxed(place, kind)
             }
         }
@@ -440,7 +457,7 @@ impl<'t, 'f> Translator<'t, 'f> {
             Operand::Undef => Some(self.byte(0)),
             Operand::Scalar(scalar) => scalar.flag,
             Operand::Items(_) => None,
-            Operand::Boxed(_) | Operand::Stored(_) => {
+            Operand::Boxed(_) | Operand::Shelved(_) | Operand::Stored(_) => {
                 let pointer = self.boxed(operand);
                 let tag = self.load(types::I64, pointer, 0);
                 Some(self.builder.ins().icmp_imm(IntCC::NotEqual, tag, 0))

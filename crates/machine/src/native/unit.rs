@@ -5,14 +5,14 @@
 //! or a pointer, null where the step is given up.
 
 use cranelift_codegen::ir::condcodes::IntCC;
-use cranelift_codegen::ir::{self, InstBuilder, Signature, Type, types};
+use cranelift_codegen::ir::{self, Block, InstBuilder, Signature, Type, types};
 use cranelift_jit::JITModule;
 use cranelift_module::{Linkage, Module};
 use program::{DomainId, FunctionId, ProcedureId, Program, Slot, TermId};
 
 use crate::native::context::Offset;
 use crate::native::helper::{self, signature};
-use crate::native::plan::UnitKey;
+use crate::native::nesting::UnitKey;
 use crate::native::shape::{Bound, Kind, Operand, Scalar};
 use crate::native::translate::{Frame, Translator};
 
@@ -49,6 +49,15 @@ pub(super) fn unit_signature(program: &Program, module: &JITModule, key: UnitKey
     signature(module, &types, &results)
 }
 
+/// Where the value of a definition is kept.
+struct Shelved {
+    index: ir::Value,
+    /// The mark of a value that holds now.
+    mark: ir::Value,
+    /// Zero where the arguments have no place.
+    inside: Option<ir::Value>,
+}
+
 impl Translator<'_, '_> {
     /// Whether a unit is translated where it is called.
     pub fn inlines(&self, key: UnitKey) -> bool {
@@ -60,31 +69,30 @@ impl Translator<'_, '_> {
     pub fn unit(&mut self, key: UnitKey, parameters: &[ir::Value]) {
         let program = self.program;
         let (domains, result) = interface(program, key);
+        let certain = match key {
+            UnitKey::Procedure(id) => self.plan.certainty.parameters_of_procedure(id),
+            UnitKey::Definition(id) => self.plan.certainty.parameters_of_definition(id),
+        };
+        let defined: Vec<bool> = certain.iter().map(|certain| certain.defined).collect();
         let mut slots = Vec::new();
         let mut rest = parameters.iter().copied();
-        for domain in domains {
+        for (domain, defined) in domains.into_iter().zip(defined) {
             let mut next = || rest.next().expect("as the signature says");
             slots.push(match Kind::of(program, domain) {
                 Some(kind) => {
                     let (value, flag) = (next(), next());
-                    Bound::Scalar(Scalar { kind, value, flag: Some(flag), range: None })
+                    Bound::Scalar(Scalar { kind, value, flag: (!defined).then_some(flag), range: None })
                 }
                 None => Bound::Boxed(next()),
             });
         }
-        let depth = self.field(Offset::depth);
-        let deep = self.builder.ins().icmp_imm(IntCC::UnsignedGreaterThan, depth, NESTED);
-        self.refuse(deep);
-        let one = self.word(1);
-        self.spend(one);
-        let deeper = self.builder.ins().iadd_imm(depth, 1);
-        self.set_field(Offset::depth, deeper);
+        let depth = self.descend(key);
         match key {
             UnitKey::Procedure(id) => {
                 let procedure = program.procedure(id);
                 self.frames.push(Frame { unit: Some(key), size: procedure.frame, slots });
                 self.rule(procedure.body);
-                self.set_field(Offset::depth, depth);
+                self.ascend(depth);
                 let good = self.byte(0);
                 self.builder.ins().return_(&[good]);
                 self.switch(self.bail);
@@ -97,7 +105,7 @@ impl Translator<'_, '_> {
                 let mark = self.field(Offset::temporary);
                 let (items, gatherers) = (self.field(Offset::item), self.gatherers);
                 let operand = self.term(definition.body);
-                self.set_field(Offset::depth, depth);
+                self.ascend(depth);
                 match result.and_then(|domain| Kind::of(program, domain)) {
                     Some(kind) => {
                         let scalar = self.scalar(operand, kind);
@@ -136,6 +144,28 @@ impl Translator<'_, '_> {
             }
         }
         self.frames.pop();
+    }
+
+    /// Counts a call: its work, and how deep it is, where that is not known to be little. Gives the depth before.
+    fn descend(&mut self, key: UnitKey) -> Option<ir::Value> {
+        let depth = (!self.plan.nesting.is_short(key)).then(|| self.field(Offset::depth));
+        if let Some(depth) = depth {
+            let deep = self.builder.ins().icmp_imm(IntCC::UnsignedGreaterThan, depth, NESTED);
+            self.refuse(deep);
+        }
+        let one = self.word(1);
+        self.spend(one);
+        if let Some(depth) = depth {
+            let deeper = self.builder.ins().iadd_imm(depth, 1);
+            self.set_field(Offset::depth, deeper);
+        }
+        depth
+    }
+
+    fn ascend(&mut self, depth: Option<ir::Value>) {
+        if let Some(depth) = depth {
+            self.set_field(Offset::depth, depth);
+        }
     }
 
     /// Calls a unit; gives its results.
@@ -187,77 +217,149 @@ impl Translator<'_, '_> {
         let kind = self.kind_of(id);
         let body = self.program.function(function).definition.as_ref().map(|d| self.program.term_domain(d.body));
         let returned = body.and_then(|domain| self.kind(domain));
-        let shelf = self.plan.facts.shelves[function.0 as usize].clone();
-        let place = shelf.and_then(|shelf| {
-            let (offset, inside) = match shelf.dimensions.len() {
-                0 => (self.word(0), None),
-                _ => self.offset(&shelf.dimensions, operands)?,
-            };
-            let place = self.builder.ins().iadd_imm(offset, i64::from(shelf.base));
-            let mark = if shelf.for_good {
-                self.word(1)
-            } else {
-                let version = self.field(Offset::version);
-                self.builder.ins().iadd_imm(version, 1)
-            };
-            Some((place, mark, inside))
-        });
-        let Some((place, mark, inside)) = place else {
-            let results = self.call_unit(UnitKey::Definition(function), operands);
-            return self.returned(&results, returned, kind);
+        let Some(place) = self.shelf_place(function, operands) else {
+            return self.computed(function, operands, (returned, kind));
         };
-        let pointer = self.variable(types::I64);
-        let (look, found, compute, done) = (self.block(), self.block(), self.block(), self.block());
-        match inside {
-            Some(inside) => self.branch(inside, look, compute),
-            None => self.jump(look),
+        match returned {
+            Some(of) if Some(of) == kind => Operand::Scalar(self.kept_scalar(function, operands, place, of)),
+            _ => self.kept_value(function, operands, place, (returned, kind)),
         }
-        self.switch(look);
-        let versions = self.field(Offset::versions);
-        let version = self.element(versions, place, 3);
-        let version = self.load(types::I64, version, 0);
-        let holds = self.builder.ins().icmp(IntCC::Equal, version, mark);
-        self.branch(holds, found, compute);
+    }
 
-        self.switch(found);
+    /// The place where a value of a definition is kept, if it is.
+    fn shelf_place(&mut self, function: FunctionId, operands: &[Operand]) -> Option<Shelved> {
+        let shelf = self.plan.facts.shelves[function.0 as usize].clone()?;
+        let (offset, inside) = match shelf.dimensions.len() {
+            0 => (self.word(0), None),
+            _ => self.offset(&shelf.dimensions, operands)?,
+        };
+        let index = self.builder.ins().iadd_imm(offset, i64::from(shelf.base));
+        let mark = if shelf.for_good {
+            self.word(1)
+        } else {
+            let version = self.field(Offset::version);
+            self.builder.ins().iadd_imm(version, 1)
+        };
+        Some(Shelved { index, mark, inside })
+    }
+
+    /// Goes to `found`, with the entry current, where a value is kept that holds now, and to `compute` elsewhere.
+    fn look_on_shelf(&mut self, place: &Shelved, found: Block, compute: Block) {
+        if let Some(inside) = place.inside {
+            let look = self.block();
+            self.branch(inside, look, compute);
+            self.switch(look);
+        }
+        let versions = self.field(Offset::versions);
+        let version = self.element(versions, place.index, 3);
+        let version = self.load(types::I64, version, 0);
+        let holds = self.builder.ins().icmp(IntCC::Equal, version, place.mark);
+        self.branch(holds, found, compute);
+    }
+
+    /// The address of the value kept at a place.
+    fn entry(&mut self, place: &Shelved) -> ir::Value {
         let kept = self.field(Offset::kept);
-        let entry = self.element(kept, place, 4);
+        self.element(kept, place.index, 4)
+    }
+
+    /// A scalar that a definition gives. Nothing but such scalars and undef stands at its place, so none of them has to be dropped.
+    fn kept_scalar(&mut self, function: FunctionId, operands: &[Operand], place: Shelved, kind: Kind) -> Scalar {
+        let defined = self.plan.certainty.function(function).defined;
+        let (value, flag) = (self.variable(kind.register()), self.variable(types::I8));
+        let (found, compute, done) = (self.block(), self.block(), self.block());
+        self.look_on_shelf(&place, found, compute);
+        self.switch(found);
+        let entry = self.entry(&place);
+        let payload = self.payload(entry, kind);
+        self.set(value, payload);
+        if !defined {
+            let tag = self.load(types::I64, entry, 0);
+            let fits = self.builder.ins().icmp_imm(IntCC::Equal, tag, kind.tag());
+            self.set(flag, fits);
+        }
+        self.jump(done);
+
+        self.switch(compute);
+        let Operand::Scalar(result) = self.computed(function, operands, (Some(kind), Some(kind))) else {
+            unreachable!("a kind is that of a scalar")
+        };
+        self.set(value, result.value);
+        if let Some(fits) = result.flag {
+            self.set(flag, fits);
+        }
+        let keep = self.block();
+        match place.inside {
+            Some(inside) => self.branch(inside, keep, done),
+            None => self.jump(keep),
+        }
+        self.switch(keep);
+        let (tag, payload) = self.words(result);
+        let entry = self.entry(&place);
+        self.store(tag, entry, 0);
+        self.store(payload, entry, 8);
+        let versions = self.field(Offset::versions);
+        let version = self.element(versions, place.index, 3);
+        self.store(place.mark, version, 0);
+        self.jump(done);
+        self.switch(done);
+        let value = self.get(value);
+        let flag = if defined { None } else { Some(self.get(flag)) };
+        Scalar { kind, value, flag, range: None }
+    }
+
+    /// Any other value.
+    fn kept_value(
+        &mut self,
+        function: FunctionId,
+        operands: &[Operand],
+        place: Shelved,
+        (returned, kind): (Option<Kind>, Option<Kind>),
+    ) -> Operand {
+        let pointer = self.variable(types::I64);
+        let (found, compute, done) = (self.block(), self.block(), self.block());
+        self.look_on_shelf(&place, found, compute);
+        self.switch(found);
+        let entry = self.entry(&place);
         self.set(pointer, entry);
         self.jump(done);
 
         self.switch(compute);
-        let results = self.call_unit(UnitKey::Definition(function), operands);
-        let value = self.returned(&results, returned, returned);
+        let value = self.computed(function, operands, (returned, returned));
         let value = self.boxed(value);
         self.set(pointer, value);
-        match inside {
-            Some(inside) => {
-                let keep = self.block();
-                self.branch(inside, keep, done);
-                self.switch(keep);
-                self.call(helper::KEEP_DERIVED, [self.context, place, mark, value]);
-                self.jump(done);
-            }
-            None => {
-                self.call(helper::KEEP_DERIVED, [self.context, place, mark, value]);
-                self.jump(done);
-            }
+        let keep = self.block();
+        match place.inside {
+            Some(inside) => self.branch(inside, keep, done),
+            None => self.jump(keep),
         }
+        self.switch(keep);
+        self.call(helper::KEEP_DERIVED, [self.context, place.index, place.mark, value]);
+        self.jump(done);
         self.switch(done);
         let pointer = self.get(pointer);
         match kind {
             Some(kind) => Operand::Scalar(self.unboxed(pointer, kind)),
-            // A kept value may be replaced before this one is used.
-            None => Operand::Boxed(self.call_for_value(helper::KEEP, [self.context, pointer])),
+            None if self.plan.visits => Operand::Boxed(self.call_for_value(helper::KEEP, [self.context, pointer])),
+            None => Operand::Shelved(pointer),
         }
     }
 
-    fn returned(&mut self, results: &[ir::Value], returned: Option<Kind>, wanted: Option<Kind>) -> Operand {
+    /// What calling a definition gives: of one kind, wanted as one of another or the same.
+    fn computed(
+        &mut self,
+        function: FunctionId,
+        operands: &[Operand],
+        (returned, wanted): (Option<Kind>, Option<Kind>),
+    ) -> Operand {
+        let results = self.call_unit(UnitKey::Definition(function), operands);
         match returned {
             Some(kind) => {
                 let given_up = self.builder.ins().icmp_imm(IntCC::Equal, results[0], 2);
                 self.refuse(given_up);
-                Operand::Scalar(Scalar { kind, value: results[1], flag: Some(results[0]), range: None })
+                let defined = self.plan.certainty.function(function).defined;
+                let flag = (!defined).then_some(results[0]);
+                Operand::Scalar(Scalar { kind, value: results[1], flag, range: None })
             }
             None => {
                 self.note_kept();

@@ -385,6 +385,109 @@ fn what_no_rule_updates_may_be_set_from_outside() {
     assert!(interpreted == run(EngineChoice::Compiled), "both engines make the same steps");
 }
 
+/// Compiled code relies on what the program writes: not on elements that somebody set to undef, nor on `self` in a rule that somebody
+/// runs who is no agent.
+#[test]
+fn what_is_certain_may_be_set_otherwise() {
+    let text = "signature:
+            domain Worker subsetof Agent
+            static worker: Worker
+            enum domain Colour = {RED | GREEN}
+            controlled queue: Colour -> Seq(Integer)
+            controlled last: Agent
+            controlled first: Integer
+            controlled n: Integer
+            controlled all: Boolean
+        definitions:
+            rule r_Work = par
+                last := self
+                n := n + length(queue(GREEN))
+                queue(GREEN) := if length(queue(GREEN)) > 3 then [n] else append(queue(GREEN), n) endif
+            endpar
+            main rule r_Main = par
+                forall $w in Worker with true do program($w)
+                all := (forall $x in asSet(queue(RED)) with isDef($x)) and isDef(last)
+                first := length([$x in queue(RED) | isDef($x) : $x])
+                queue(RED) := queue(GREEN)
+            endpar
+        default init s:
+            function queue($c in Colour) = [1, 2]
+            function n = 0
+            function first = 0
+            function last = worker
+            function all = true
+            agent Worker: r_Work[]";
+    let run = |engine: EngineChoice| {
+        let mut machine = machine_of(text);
+        machine.use_engine(engine);
+        machine.start(&mut Closed).expect("it starts");
+        let procedures = &machine.program().procedures;
+        let work = procedures.iter().position(|procedure| procedure.name == "r_Work").expect("it is declared");
+        let queue = machine.find_function("queue", 1).expect("it is declared");
+        let first = machine.locations().iter().find(|(location, _)| location.function == queue).cloned();
+        let (red, _) = first.expect("it has a value");
+        let mut seen = Vec::new();
+        for _ in 0..3 {
+            machine.step(&mut Closed).expect("a step");
+            seen.push(machine.locations());
+        }
+        machine.set(&red, Value::seq(vec![Value::Integer(1), Value::Undef])).expect("undef is in each domain");
+        for _ in 0..3 {
+            machine.step(&mut Closed).expect("a step");
+            seen.push(machine.locations());
+        }
+        machine.prepare_procedure(program::ProcedureId(work as u32), &mut Closed).expect("a step");
+        machine.commit();
+        for _ in 0..3 {
+            machine.step(&mut Closed).expect("a step");
+            seen.push(machine.locations());
+        }
+        seen
+    };
+    let interpreted = run(EngineChoice::Interpreted);
+    assert_eq!(interpreted.len(), 9);
+    assert!(interpreted == run(EngineChoice::Compiled), "both engines make the same steps");
+}
+
+/// A value of a definition that is looked at may be replaced where it is kept: by that of the state before the step, for one.
+#[test]
+fn a_kept_value_stays_what_it_was() {
+    let text = "signature:
+            enum domain Colour = {RED | GREEN}
+            controlled line: Colour -> Seq(Integer)
+            controlled n: Integer
+            controlled same: Boolean
+            controlled longer: Integer
+            derived rest: Colour -> Seq(Integer)
+        definitions:
+            function rest($c in Colour) = [$x in line($c) | $x > 0 and $x < 90 and $x != 7 : $x]
+            main rule r_Main = seq
+                line(RED) := append(line(RED), n + 1)
+                n := n + 1
+                par
+                    same := rest(RED) = pre(rest(RED))
+                    longer := length(union(rest(RED), pre(rest(RED))))
+                endpar
+            endseq
+        default init s:
+            function line($c in Colour) = [1, 0, 7]
+            function n = 0
+            function same = true
+            function longer = 0";
+    let run = |engine: EngineChoice| {
+        let mut machine = machine_of(text);
+        machine.use_engine(engine);
+        machine.start(&mut Closed).expect("it starts");
+        let mut seen = Vec::new();
+        for _ in 0..6 {
+            machine.step(&mut Closed).expect("a step");
+            seen.push(machine.locations());
+        }
+        seen
+    };
+    assert!(run(EngineChoice::Interpreted) == run(EngineChoice::Compiled), "both engines make the same steps");
+}
+
 #[test]
 fn a_location_that_is_only_written_needs_no_initial_value() {
     let model = |main: &str| {
