@@ -23,7 +23,7 @@ pub use assumed::{assumed_bounds, input_values};
 pub use explorer::Explorer;
 pub use explorer::census::{Mover, Unlike};
 pub use explorer::orbit::{Orbits, Permutation};
-pub use explorer::paths::{Outcome, Path};
+pub use explorer::paths::{Outcome, Path, Reading, Visitor};
 pub use explorer::sets::{Alternative, Judged, SetTrouble, StateSets, Visit};
 pub use explorer::sighting::{Met, Sighting};
 pub use given::Given;

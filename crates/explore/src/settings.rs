@@ -21,6 +21,8 @@ pub struct Settings {
     /// Conditions on a state with the inputs of its step; whether each is an assumption, by which alternatives are left
     /// out.
     pub step_conditions: Vec<(Expression, bool)>,
+    /// What a [`crate::Visitor`] reads in steps.
+    pub read_in_steps: Vec<Expression>,
     /// Nothing is remembered.
     pub forgetful: bool,
     /// What makes the steps that are not remembered; by itself the explorer compiles them where remembering does not pay.

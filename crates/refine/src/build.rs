@@ -75,7 +75,7 @@ impl Builder {
             diagrams: Diagrams::usual(false),
             shared: Default::default(),
             given: Vec::new(),
-            watched: Vec::new(),
+            computed: Vec::new(),
             readers: Default::default(),
             waiting: false,
             variant: None,
@@ -117,7 +117,7 @@ impl Builder {
         if let Some(part) = &written.segment
             && let Some(formula) = self.condition(part)
         {
-            self.concrete_only(&formula, part, "a segment ends");
+            self.concrete_only(&formula, part, "a segment ends", "the concrete machine's state alone");
             self.coupling.segment = Some(formula);
         }
         if let Some(part) = &written.variant {
@@ -405,10 +405,10 @@ impl Builder {
         true
     }
 
-    fn concrete_only(&mut self, formula: &Expression, part: &Part, what: &str) {
+    fn concrete_only(&mut self, formula: &Expression, part: &Part, what: &str, by: &str) {
         if !self.functions_of(formula, ABSTRACT).is_empty() {
             let place = self.place(part);
-            self.fault(bad_coupling(place, format!("{what} by the concrete machine's state alone")));
+            self.fault(bad_coupling(place, format!("{what} by {by}")));
         }
     }
 
@@ -508,23 +508,15 @@ impl Builder {
         let renamed = mapped.term.text.strip_prefix("concrete.");
         let renamed = renamed.and_then(|name| other.find_function(name, arity));
         if let Some(there) = renamed.filter(|there| is_input(other.function(*there))) {
-            if let Some([one, other]) = self.other_domain(input, there) {
-                let message = format!("the two inputs have different domains: {one}, and {other}");
-                let place = self.place(&mapped.term);
-                return self.fault(bad_coupling(place, message));
-            }
-            return self.share(input, there);
-        }
-        // LIMIT: such a function is evaluated in every step; if that is a fault, so is the step.
-        let is_boolean = |program: &Program, id: FunctionId| {
-            program.domain(program.function(id).codomain).kind == DomainKind::Basic(model::Basic::Boolean)
-        };
-        if let Some(there) = renamed.filter(|there| arity == 0 && is_boolean(&other, *there) && is_boolean(&one, input))
-        {
-            let formula = self.reader(CONCRETE, there);
-            if self.coupling.programs[CONCRETE].reads_monitored(&formula) {
-                self.coupling.shared[ABSTRACT].entry(input).or_default().push(input.0);
-                return self.coupling.watched.push((input.0, formula));
+            match self.other_domain(input, there) {
+                None => return self.share(input, there),
+                // Of another domain it is a term like others.
+                Some(_) if arity == 0 => {}
+                Some([one, other]) => {
+                    let message = format!("the two inputs have different domains: {one}, and {other}");
+                    let place = self.place(&mapped.term);
+                    return self.fault(bad_coupling(place, message));
+                }
             }
         }
         if arity > 0 {
@@ -536,11 +528,15 @@ impl Builder {
         let Some(id) = joint.find_function(&joint_name(ABSTRACT, &mapped.input.text), 0) else { return };
         let domain = joint.function(id).codomain;
         let Some(formula) = self.term(&mapped.term, Some(domain)) else { return };
-        if self.over_states(&formula, &mapped.term) {
-            self.concrete_only(&formula, &mapped.term, "the input is given");
-            self.coupling.shared[ABSTRACT].entry(input).or_default().push(input.0);
-            self.coupling.given.push((input.0, formula));
+        self.concrete_only(&formula, &mapped.term, "the input is given", "the concrete machine alone");
+        let mut reads_inputs = false;
+        for function in self.functions_of(&formula, CONCRETE) {
+            let reader = self.reader(CONCRETE, function);
+            reads_inputs |= self.coupling.programs[CONCRETE].reads_monitored(&reader);
         }
+        self.coupling.shared[ABSTRACT].entry(input).or_default().push(input.0);
+        let known = if reads_inputs { &mut self.coupling.computed } else { &mut self.coupling.given };
+        known.push((input.0, formula));
     }
 }
 

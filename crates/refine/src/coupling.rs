@@ -49,8 +49,8 @@ pub struct Coupling {
     pub(crate) shared: [FxHashMap<FunctionId, Vec<u32>>; 2],
     /// Inputs of the abstract machine that are terms over the concrete state.
     pub(crate) given: Vec<(u32, Expression)>,
-    /// Inputs of the abstract machine that are conditions on the concrete machine's steps.
-    pub(crate) watched: Vec<(u32, Expression)>,
+    /// Inputs of the abstract machine that are terms over the concrete state and the concrete machine's inputs.
+    pub(crate) computed: Vec<(u32, Expression)>,
     pub(crate) readers: [FxHashMap<FunctionId, Expression>; 2],
     /// The concrete machine may go on for ever without a step of the abstract one.
     pub waiting: bool,

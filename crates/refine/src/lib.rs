@@ -7,6 +7,7 @@
 
 mod bounded;
 mod build;
+mod computed;
 mod coupling;
 mod determined;
 mod diagram;

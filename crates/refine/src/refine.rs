@@ -9,6 +9,7 @@ use machine::{Cause, Fault};
 use program::PropertyKind;
 
 use crate::bounded::{of_proof, of_refutation};
+use crate::computed::Computed;
 use crate::coupling::Coupling;
 use crate::evidence;
 use crate::game::{Rules, solve};
@@ -91,8 +92,9 @@ fn begun<'c>(
     let mut sides = Vec::new();
     for side in [ABSTRACT, CONCRETE] {
         let (program, readers) = (&coupling.programs[side], coupling.readers[side].clone());
-        let watched = if side == CONCRETE { &coupling.watched[..] } else { &[] };
-        let mut made = match Side::new(side, program, &options.extents[side], &widenings[side], readers, watched) {
+        let extent = &options.extents[side];
+        let computed = if side == CONCRETE { Computed::of(coupling, &extent.limits) } else { None };
+        let mut made = match Side::new(side, program, extent, &widenings[side], readers, computed) {
             Ok(made) => made,
             Err(explore::Trouble::TooNarrow(widening)) => return Ok(Err((side, widening))),
             Err(explore::Trouble::Fault(fault)) => return Err(Trouble::Fault(side, fault)),

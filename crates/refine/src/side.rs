@@ -10,12 +10,16 @@ use std::ops::ControlFlow;
 use std::rc::Rc;
 use std::sync::Arc;
 
-use explore::{Explorer, Interner, Outcome, Settings, Start, Told, Trouble, Truth, Unbounded, Widening, input_values};
+use explore::{
+    Explorer, Interner, Outcome, Path, Reading, Settings, Start, Told, Trouble, Truth, Unbounded, Visitor, Widening,
+    input_values,
+};
 use machine::{Fault, FaultKind, Interrupt, Location, Value};
 use program::{Expression, FunctionId, Program, PropertyKind};
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::CONCRETE;
+use crate::computed::{Computed, Values};
 use crate::joint::Bridge;
 use crate::limited::limited;
 use crate::options::Extent;
@@ -102,8 +106,8 @@ pub(crate) struct Side {
     interrupt: Interrupt,
     /// By input of the program: the inputs of the abstract machine that have its value.
     pub shared: FxHashMap<FunctionId, Vec<u32>>,
-    /// Inputs of the abstract machine that say whether a condition on this machine's steps holds, by its number.
-    watched: Vec<(u32, u32)>,
+    /// Inputs of the abstract machine that are terms over this machine's steps.
+    computed: Option<Computed>,
     /// Conditions that states which count satisfy.
     assumed: usize,
     states: Vec<Box<[u64]>>,
@@ -129,7 +133,7 @@ impl Side {
         extent: &Extent,
         widening: &Widening,
         readers: FxHashMap<FunctionId, Expression>,
-        watched: &[(u32, Expression)],
+        computed: Option<Computed>,
     ) -> Result<Side, Trouble> {
         let bounds = input_values(program, &extent.bounds, &extent.undefined);
         let mut settings = Settings { limits: extent.limits.clone(), bounds: Arc::new(bounds), ..Settings::default() };
@@ -141,11 +145,7 @@ impl Side {
             }
         }
         let assumed = settings.conditions.len();
-        let mut conditions = Vec::new();
-        for (input, formula) in watched {
-            conditions.push((*input, settings.step_conditions.len() as u32));
-            settings.step_conditions.push((formula.clone(), false));
-        }
+        settings.read_in_steps = computed.as_ref().map(Computed::readers).unwrap_or_default();
         let explorer = Explorer::new(program, settings, widening, &Arc::<Interner>::default())?;
         Ok(Side {
             place,
@@ -153,7 +153,7 @@ impl Side {
             explorer,
             interrupt: extent.interrupt.clone(),
             shared: FxHashMap::default(),
-            watched: conditions,
+            computed,
             assumed,
             states: Vec::new(),
             numbers: FxHashMap::default(),
@@ -251,17 +251,19 @@ impl Side {
         found
     }
 
-    /// What both machines have of the inputs that a step read, given the conditions on it that do not hold.
-    fn label(&self, read: &[(Location, Value)], failed: &[u32], inputs: &mut Inputs, bridge: &Bridge) -> Label {
+    /// What both machines have of the inputs that a step read, and the inputs that are terms over it.
+    fn label(&self, read: &[(Location, Value)], values: Values, inputs: &mut Inputs, bridge: &Bridge) -> Label {
         let label = self.label_of_inputs(read, inputs, bridge);
-        if self.watched.is_empty() {
+        if values.is_empty() {
             return label;
         }
-        let holds = |(input, condition): &(u32, u32)| {
-            inputs.number(*input, Vec::new(), Value::Boolean(!failed.contains(condition)))
-        };
-        let mut all: Vec<(u32, u32)> = self.watched.iter().map(holds).collect();
-        all.extend(label.iter());
+        let mut all: Vec<(u32, u32)> = label.to_vec();
+        // What cannot be evaluated is a value that no abstract step reads.
+        all.extend(
+            values
+                .into_iter()
+                .map(|(input, value)| inputs.number(input, Vec::new(), value.unwrap_or_else(Value::string))),
+        );
         all.sort_unstable();
         all.into()
     }
@@ -306,7 +308,7 @@ impl Side {
 
     /// The steps of a state, as a search makes them: remembered or compiled. None if somebody has to know more of a step than where it leads.
     fn unlabelled(&mut self, state: StateId, given: &[(u32, u32)]) -> Result<Option<Vec<Move>>, Stopped> {
-        let reads = !self.shared.is_empty() || !self.watched.is_empty() || !self.limited.is_empty();
+        let reads = !self.shared.is_empty() || self.computed.is_some() || !self.limited.is_empty();
         if reads || self.most < u64::MAX {
             return Ok(None);
         }
@@ -342,12 +344,11 @@ impl Side {
         bridge: &Bridge,
     ) -> Result<Vec<Move>, Stopped> {
         let packed = self.packed(state);
-        let mut paths = Vec::new();
         let most = self.most;
-        let whole = self.explorer.paths_until(&packed, &mut |path| {
-            paths.push((path.inputs, path.failed, path.outcome));
-            if paths.len() as u64 > most { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-        });
+        let mut paths =
+            Paths { computed: self.computed.as_mut(), bridge, most, values: Values::new(), found: Vec::new() };
+        let whole = self.explorer.paths_read(&packed, &mut paths);
+        let paths = paths.found;
         match whole {
             Ok(true) if paths.len() as u64 > most => return Err(Stopped::Many),
             Err(widening) => return Err(Stopped::Narrow(self.place, widening)),
@@ -356,9 +357,9 @@ impl Side {
         }
         let mut moves = Vec::new();
         let mut seen = FxHashSet::default();
-        for (read, failed, outcome) in paths {
+        for (Path { inputs: read, outcome, .. }, values) in paths {
             self.look_at(&read);
-            let mut label = self.label(&read, &failed, inputs, bridge);
+            let mut label = self.label(&read, values, inputs, bridge);
             if !given.is_empty() {
                 let mut all: Vec<(u32, u32)> = label.iter().chain(given).copied().collect();
                 all.sort_unstable();
@@ -418,18 +419,50 @@ impl Side {
         bridge: &Bridge,
     ) -> Option<Told> {
         let packed = self.packed(from);
-        let mut paths = Vec::new();
-        let _ = self.explorer.paths(&packed, &mut |path| paths.push(path));
+        let (most, computed) = (u64::MAX, self.computed.as_mut());
+        let mut paths = Paths { computed, bridge, most, values: Values::new(), found: Vec::new() };
+        let _ = self.explorer.paths_read(&packed, &mut paths);
+        let paths = paths.found;
         let wanted_label: Vec<(u32, u32)> =
             wanted.label.iter().filter(|entry| !given.contains(entry)).copied().collect();
-        let path = paths.into_iter().find(|path| {
+        let (path, _) = paths.into_iter().find(|(path, values)| {
             let leads = match (&path.outcome, &wanted.goal) {
                 (Outcome::Next(next), Goal::State(to)) => **next == *self.states[*to as usize],
                 (Outcome::Fault(fault), Goal::Fault(text)) => fault.show(&self.program).to_string() == *text,
                 _ => false,
             };
-            leads && *self.label(&path.inputs, &path.failed, inputs, bridge) == wanted_label[..]
+            leads && *self.label(&path.inputs, values.clone(), inputs, bridge) == wanted_label[..]
         })?;
-        Some(self.explorer.tell(&packed, &path.picks))
+        let Side { explorer, computed, .. } = self;
+        let mut read = |step: &mut Reading<'_>| match computed {
+            Some(computed) => computed.values(step, bridge).map(|_| ()),
+            None => Ok(()),
+        };
+        Some(explorer.tell_read(&packed, &path.picks, &mut read))
+    }
+}
+
+/// The alternatives of a state, each with the inputs that are terms over it.
+struct Paths<'p> {
+    computed: Option<&'p mut Computed>,
+    bridge: &'p Bridge,
+    /// So many are enough.
+    most: u64,
+    /// Those of the alternative that is looked at.
+    values: Values,
+    found: Vec<(Path, Values)>,
+}
+
+impl Visitor for Paths<'_> {
+    fn read(&mut self, step: &mut Reading<'_>) -> Result<(), Fault> {
+        if let Some(computed) = &mut self.computed {
+            self.values = computed.values(step, self.bridge)?;
+        }
+        Ok(())
+    }
+
+    fn visit(&mut self, path: Path) -> ControlFlow<()> {
+        self.found.push((path, std::mem::take(&mut self.values)));
+        if self.found.len() as u64 > self.most { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     }
 }

@@ -13,6 +13,7 @@ use testkit::sample::seeds;
 use testkit::solver::{Installed, solvers};
 use testkit::{Page, Random};
 
+use crate::enumerated::Enumerated;
 use crate::naive::{changed, machine_of, rule};
 use crate::small::{example, machine, report};
 
@@ -28,7 +29,7 @@ pub fn coupled(one: &Arc<Program>, other: &Arc<Program>, text: &str) -> Coupling
     coupling.unwrap_or_else(|faulty| panic!("{:#?}", faulty.faults))
 }
 
-pub fn proved_by(mut by: Vec<Installed>, coupling: &Coupling, pairs: u64) -> Report {
+pub fn proved_by(mut by: Vec<impl Solvers>, coupling: &Coupling, pairs: u64) -> Report {
     let solvers = by.iter_mut().map(|solver| -> &mut dyn Solvers { solver }).collect();
     let options = Options { max_pairs: pairs, ..Options::default() };
     prove(coupling, &options, Provers { solvers, seconds: 20 }, &mut |_| true).expect("it begins")
@@ -270,7 +271,7 @@ fn one_solver_is_not_enough() {
         assert!(matches!(report.verdict, Verdict::Unknown(_)));
         assert_eq!(report.proof.expect("a proof").gap, Some(Gap::Alone));
     }
-    let none = proved_by(Vec::new(), &coupled(&one, &other, "same peak;"), 0);
+    let none = proved_by(Vec::<Installed>::new(), &coupled(&one, &other, "same peak;"), 0);
     assert!(matches!(none.verdict, Verdict::Unknown(_)), "{none:?}");
 }
 
@@ -330,6 +331,19 @@ fn what_is_outside_is_named() {
 /// What the solvers alone prove the search proves, too, and what is wrong they never accept.
 #[test]
 fn the_search_says_the_same_of_random_machines() {
+    agree(seeds(20, 600), &|coupling, pairs| Some(proved_by(both()?, coupling, pairs)));
+}
+
+/// So it is where all values are tried instead, wherever the tests run.
+#[test]
+fn the_search_says_the_same_of_random_machines_whose_values_are_tried() {
+    agree(seeds(60, 2000), &|coupling, pairs| Some(proved_by(vec![Enumerated; 2], coupling, pairs)));
+}
+
+/// Makes a report of so many pairs of states, and a proof.
+type Proves<'p> = &'p dyn Fn(&Coupling, u64) -> Option<Report>;
+
+fn agree(cases: std::ops::Range<u64>, proves: Proves<'_>) {
     let couplings = [
         "same n;",
         "same n, h;",
@@ -341,9 +355,11 @@ fn the_search_says_the_same_of_random_machines() {
         "same h; couple abstract.n <= concrete.n; allow waiting;",
         "same n, h; free abstract.go;",
         "same n; input abstract.go = concrete.h; allow waiting;",
+        "same n; input abstract.go = not concrete.go; allow waiting;",
+        "same n; input abstract.go = (concrete.go or concrete.h); allow waiting;",
+        "same n; input abstract.go = (concrete.go and concrete.n = 0); diagrams 0..1:1..2; allow waiting;",
     ];
     let mut counts = [0; 4];
-    let cases = seeds(20, 600);
     for seed in cases.clone() {
         let mut random = Random(seed * 104_729 + 3);
         let abstractly = rule(&mut random);
@@ -354,20 +370,15 @@ fn the_search_says_the_same_of_random_machines() {
         };
         let (one, other) = (machine_of(&abstractly), machine_of(&concretely));
         let text = random.pick(&couplings);
-        let Some(found) = proved(&one, &other, text) else { return };
+        let Some(found) = proves(&coupled(&one, &other, text), 0) else { return };
         let expected = report(&one, &other, Some(text));
         let of = || format!("seed {seed}: {text}\nabstract {abstractly}\nconcrete {concretely}\n{:#?}", found.proof);
         match found.verdict {
             Verdict::Refines => {
                 if let Verdict::Vacuous(_) = expected.verdict {
                     // No reached pair has such a step; the search that goes before a proof says so.
-                    let Some(both) = both() else { return };
-                    assert_eq!(
-                        proved_by(both, &coupled(&one, &other, text), 500).verdict,
-                        expected.verdict,
-                        "{}",
-                        of()
-                    );
+                    let Some(searched) = proves(&coupled(&one, &other, text), 500) else { return };
+                    assert_eq!(searched.verdict, expected.verdict, "{}", of());
                     continue;
                 }
                 assert_eq!(expected.verdict, Verdict::Refines, "{}", of());
@@ -384,6 +395,83 @@ fn the_search_says_the_same_of_random_machines() {
     }
     let all = cases.count();
     assert!(counts[0] * 8 > all && counts[2] * 8 > all, "{counts:?}");
+}
+
+/// Inputs of infinite domains, from which that of the abstract machine is computed.
+#[test]
+fn an_input_may_be_computed_from_inputs() {
+    let one = machine(
+        "monitored warm: Boolean controlled times: Integer",
+        "main rule r_Main = if warm and times < 1000000000 then times := times + 1 endif",
+        "function times = 0",
+    );
+    let other = |guard: &str| {
+        machine(
+            "monitored inside: Integer monitored outside: Integer controlled offset: Integer controlled times: Integer",
+            &format!("main rule r_Main = if {guard} and times < 1000000000 then times := times + 1 endif"),
+            "function times = 0 function offset = 3",
+        )
+    };
+    let coupling = "same times; couple concrete.offset = 3;
+        input abstract.warm = (concrete.inside > 20 and concrete.outside > 20 - concrete.offset);";
+    refines_by(&one, &other("inside >= 21 and outside >= 18"), coupling, &[(1, 1)]);
+    stuck(&one, &other("inside > 21 and outside > 17"), coupling, "step 1 answered");
+    stuck(&one, &other("inside > 20"), coupling, "step 1 answered");
+    // Any value is an answer to all of them.
+    for guard in ["inside > 21 and outside > 17", "inside > 20"] {
+        refines(&one, &other(guard), "same times; free abstract.warm;");
+    }
+    let few = machine(FEW, "domain Few = {0, 2, 5} main rule r_Main = last := step", "function last = 0");
+    let all = machine(
+        "monitored raw: Integer -> Boolean controlled last: Integer",
+        "main rule r_Main = last := if raw(3) then 2 else 0 endif",
+        "function last = 0",
+    );
+    let over_all = "same last; input abstract.step = (if concrete.raw(3) then 2 else 0 endif);";
+    outside(&few, &all, over_all, "over all of Integer");
+}
+
+const FEW: &str = "domain Few subsetof Integer monitored step: Few controlled last: Few";
+
+/// What is computed is a value that the abstract machine's input may have, or none.
+#[test]
+fn a_computed_input_has_the_value_that_is_computed() {
+    let few = machine(FEW, "domain Few = {0, 2, 5} main rule r_Main = last := step", "function last = 0");
+    let raw = |rule: &str| {
+        let signature =
+            "domain Few subsetof Integer domain Raw subsetof Integer monitored raw: Raw controlled last: Few";
+        let domains = "domain Few = {0, 2, 5} domain Raw = {0:12}";
+        machine(signature, &format!("{domains} main rule r_Main = last := {rule}"), "function last = 0")
+    };
+    let at = |rule: &str, term: &str| {
+        let text = format!("same last; input abstract.step = {term};");
+        let report = proved_by(vec![Enumerated; 2], &coupled(&few, &raw(rule), &text), 0);
+        let proof = report.proof.expect("a proof");
+        match (report.verdict, proof.gap) {
+            (Verdict::Refines, None) => "refines".to_string(),
+            (Verdict::Unknown(_), Some(Gap::Stuck(index, _))) => proof.obligations[index].name.clone(),
+            other => panic!("{other:?}"),
+        }
+    };
+    let level = "if raw > 9 then 5 elseif raw > 3 then 2 else 0 endif";
+    let same = "(if concrete.raw > 9 then 5 elseif concrete.raw > 3 then 2 else 0 endif)";
+    assert_eq!(at(level, same), "refines");
+    assert_eq!(at("if raw > 8 then 5 elseif raw > 3 then 2 else 0 endif", same), "step 1 answered");
+    assert_eq!(at("0", same), "step 1 answered");
+    // 1 is none of the values: no step of the abstract machine has it.
+    assert_eq!(at("if raw = 4 then 5 else 0 endif", "(if concrete.raw = 4 then 5 else 1 endif)"), "step 1 answered");
+    // Nor has it one where the term is not defined.
+    assert_eq!(at("0", "0 * (6 mod concrete.raw)"), "step 1 answered");
+    assert_eq!(
+        at("if raw = 4 then 2 else 0 endif", "(if concrete.raw = 4 then 2 else 0 * (6 mod (concrete.raw + 1)) endif)"),
+        "refines"
+    );
+    // The state before the step is the one that the term looks at.
+    assert_eq!(
+        at("if raw = last then 5 else 2 endif", "(if concrete.raw = concrete.last then 5 else 2 endif)"),
+        "refines"
+    );
+    assert_eq!(at("if raw = last then 5 else 2 endif", "(if concrete.raw = 0 then 5 else 2 endif)"), "step 1 answered");
 }
 
 /// Each coupling of the page that is proved by induction is one that the search proves.

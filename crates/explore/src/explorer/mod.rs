@@ -43,6 +43,7 @@ use crate::settings::{Settings, Trouble};
 use crate::starts::origin::Origins;
 use crate::starts::{Begun, Starts, each_start};
 use makers::Makers;
+use paths::Reading;
 use sighting::Sighting;
 
 /// What became of one alternative.
@@ -52,6 +53,9 @@ pub(super) struct Attempt {
     pub failed: Vec<u32>,
     pub overwrites: Vec<Overwrite>,
 }
+
+/// Reads something in a step that can be made.
+pub(super) type Read<'r> = dyn FnMut(&mut Reading<'_>) -> Result<(), Fault> + 'r;
 
 /// See the module.
 #[derive(Debug)]
@@ -273,7 +277,7 @@ impl Explorer {
             if self.settings.interrupt.is_raised() {
                 return Ok(Expansion { interrupted: true, ..expansion });
             }
-            let attempt = self.attempt(state)?;
+            let attempt = self.attempt(state, &mut |_| Ok(()))?;
             if let Some(attempt) = &attempt {
                 expansion.count(attempt.kind, state, &attempt.overwrites, &mut found);
                 if !attempt.failed.is_empty() {
@@ -320,7 +324,7 @@ impl Explorer {
     }
 
     /// Makes the step with the alternatives that are due and takes it back; none where they are dead.
-    pub(super) fn attempt(&mut self, state: &[u64]) -> Result<Option<Attempt>, Widening> {
+    pub(super) fn attempt(&mut self, state: &[u64], read: &mut Read<'_>) -> Result<Option<Attempt>, Widening> {
         self.load(state);
         let mut attempt =
             Attempt { kind: AlternativeKind::Next, fault: None, failed: Vec::new(), overwrites: Vec::new() };
@@ -331,7 +335,7 @@ impl Explorer {
             outcome = Err(*clash);
         }
         if !self.branches.dead && self.branches.unbounded.is_none() {
-            outcome = self.check_step(&mut attempt, outcome);
+            outcome = self.check_step(&mut attempt, outcome, read);
         }
         if self.branches.dead {
             return Ok(None);
@@ -360,7 +364,7 @@ impl Explorer {
 
     /// Evaluates the conditions on a step that was made or has a fault. Assumptions come first: what they exclude counts for
     /// nothing else.
-    fn check_step(&mut self, attempt: &mut Attempt, made: Result<(), Fault>) -> Result<(), Fault> {
+    fn check_step(&mut self, attempt: &mut Attempt, made: Result<(), Fault>, read: &mut Read<'_>) -> Result<(), Fault> {
         let Explorer { settings, machine, branches, .. } = self;
         let mut unclear = None;
         for (_, formula, _) in settings.checks_of_steps().take_while(|(.., assumed)| *assumed) {
@@ -385,7 +389,7 @@ impl Explorer {
                 Ok(_) | Err(_) => attempt.failed.push(index),
             }
         }
-        Ok(())
+        read(&mut Reading { machine, branches })
     }
 
     /// What the prepared update set changes in the packed state.

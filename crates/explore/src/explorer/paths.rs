@@ -4,8 +4,10 @@
 
 use std::ops::ControlFlow;
 
-use machine::{Fault, Location, Value};
+use machine::{Fault, Location, Machine, Value};
+use program::{Expression, Slot};
 
+use crate::alternatives::branches::Branches;
 use crate::alternatives::kind::AlternativeKind;
 use crate::alternatives::told::ChoiceTaken;
 use crate::alternatives::unbounded::Unbounded;
@@ -41,6 +43,55 @@ pub struct Path {
     pub inputs: Vec<(Location, Value)>,
 }
 
+/// A step that can be made, before it is: what it reads, it asks for as the step does.
+pub struct Reading<'r> {
+    pub(super) machine: &'r mut Machine,
+    pub(super) branches: &'r mut Branches,
+}
+
+impl std::fmt::Debug for Reading<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Reading").finish_non_exhaustive()
+    }
+}
+
+impl Reading<'_> {
+    /// The value of a term with parameters, in the state before the step and with its inputs.
+    ///
+    /// # Errors
+    /// What evaluation meets. A fault that is not of the model is to be passed on.
+    pub fn value(&mut self, term: &Expression, arguments: &[Value]) -> Result<Value, Fault> {
+        let bindings: Vec<(Slot, Value)> = (0..).map(Slot).zip(arguments.iter().cloned()).collect();
+        self.machine.evaluate_with(term.body, term.frame, &bindings, self.branches)
+    }
+}
+
+/// Whoever goes through the alternatives of a state.
+pub trait Visitor {
+    /// Reads something in a step that can be made. What it asks for makes alternatives of its own. It reads by
+    /// [`crate::Settings::read_in_steps`] alone.
+    ///
+    /// # Errors
+    /// A fault that is not of the model: the step cannot be gone through.
+    fn read(&mut self, step: &mut Reading<'_>) -> Result<(), Fault>;
+
+    /// Is told of an alternative, behind what was read in it.
+    fn visit(&mut self, path: Path) -> ControlFlow<()>;
+}
+
+/// Reads nothing.
+struct Only<'v>(&'v mut dyn FnMut(Path) -> ControlFlow<()>);
+
+impl Visitor for Only<'_> {
+    fn read(&mut self, _: &mut Reading<'_>) -> Result<(), Fault> {
+        Ok(())
+    }
+
+    fn visit(&mut self, path: Path) -> ControlFlow<()> {
+        (self.0)(path)
+    }
+}
+
 impl Explorer {
     /// Each alternative of a state, in order; false where these are not all, since whoever waits has had enough.
     ///
@@ -62,12 +113,20 @@ impl Explorer {
         state: &[u64],
         visit: &mut dyn FnMut(Path) -> ControlFlow<()>,
     ) -> Result<bool, Widening> {
+        self.paths_read(state, &mut Only(visit))
+    }
+
+    /// The same by somebody who reads more in each step than it does itself.
+    ///
+    /// # Errors
+    /// A successor does not fit.
+    pub fn paths_read(&mut self, state: &[u64], visitor: &mut dyn Visitor) -> Result<bool, Widening> {
         self.branches.first();
         loop {
             if self.settings.interrupt.is_raised() {
                 return Ok(false);
             }
-            if let Some(attempt) = self.attempt(state)? {
+            if let Some(attempt) = self.attempt(state, &mut |step| visitor.read(step))? {
                 let picks = self.branches.answers().iter().map(|asked| asked.taken).collect();
                 let outcome = match (attempt.kind, attempt.fault, self.branches.unbounded) {
                     (AlternativeKind::Next, ..) => {
@@ -81,7 +140,7 @@ impl Explorer {
                 };
                 let choices = std::mem::take(&mut self.branches.chosen);
                 let inputs = self.machine.inputs();
-                if visit(Path { picks, outcome, failed: attempt.failed, choices, inputs }).is_break() {
+                if visitor.visit(Path { picks, outcome, failed: attempt.failed, choices, inputs }).is_break() {
                     return Ok(true);
                 }
             }

@@ -2,16 +2,27 @@
 
 use std::ops::ControlFlow;
 
-use machine::{EngineChoice, Interrupt, Machine};
+use machine::{EngineChoice, Fault, Interrupt, Machine};
 
 use crate::alternatives::branches::Branches;
 use crate::alternatives::told::Told;
 use crate::explorer::Explorer;
+use crate::explorer::paths::Reading;
 use crate::starts::{Start, each_start};
 
 impl Explorer {
     /// Tells of the step that these answers lead to.
     pub fn tell(&mut self, state: &[u64], picks: &[u32]) -> Told {
+        self.tell_read(state, picks, &mut |_| Ok(()))
+    }
+
+    /// The same where more is read in the step than it does itself.
+    pub fn tell_read(
+        &mut self,
+        state: &[u64],
+        picks: &[u32],
+        read: &mut dyn FnMut(&mut Reading<'_>) -> Result<(), Fault>,
+    ) -> Told {
         self.load(state);
         self.branches.follow(picks);
         let mut told = Told::default();
@@ -21,6 +32,10 @@ impl Explorer {
             if assumed || prepared.is_ok() {
                 let _ = self.machine.evaluate(formula, &mut self.branches);
             }
+        }
+        if prepared.is_ok() {
+            let Explorer { machine, branches, .. } = self;
+            let _ = read(&mut Reading { machine, branches });
         }
         told.inputs = self.machine.inputs();
         match prepared {

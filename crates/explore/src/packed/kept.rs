@@ -61,6 +61,7 @@ fn inputs_of_steps(program: &Program, settings: &Settings) -> BTreeSet<FunctionI
         program.each_term_of_rule(rule, &mut |term| terms.push(term));
     }
     let formulas = settings.conditions.iter().chain(settings.step_conditions.iter().map(|(formula, _)| formula));
+    let formulas = formulas.chain(&settings.read_in_steps);
     terms.extend(formulas.map(|formula| formula.body));
     let mut entered = vec![false; program.functions.len()];
     let mut seen = vec![false; program.terms.len()];

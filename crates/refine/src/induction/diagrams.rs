@@ -144,9 +144,6 @@ impl<'d> Diagrams<'d> {
             let (symbol, valid) = if let Some((symbol, valid)) = self.related.given.get(&function.0) {
                 let (symbol, valid) = (symbol.clone(), *valid);
                 (replaced_symbol(store, &symbol, by), store.replaced(valid, by))
-            } else if let Some((_, node)) = self.machines[CONCRETE].watched.iter().find(|one| one.0 == function.0) {
-                let node = store.replaced(*node, by);
-                (Symbol::boolean(node), Terms::TRUE)
             } else {
                 let there = coupling.shared[CONCRETE].iter().find(|(_, named)| named.contains(&function.0));
                 let Some((there, _)) = there else { return Err(nowhere("an input without a counterpart")) };

@@ -13,7 +13,7 @@ use solve::shared::{Node, Terms};
 use super::ask::{Ask, Model};
 use super::diagrams::{Answer, Diagrams};
 use super::proof::{Gap, Known, Origin, Said, Stuck};
-use super::related::{Related, read, related};
+use super::related::{Locations, Related, read, related};
 use super::symbolic::{Replacement, Store, Subject, Symbolic, input_location, nowhere};
 use crate::coupling::Coupling;
 use crate::options::Options;
@@ -64,6 +64,7 @@ impl Prover<'_, '_, '_> {
         let (starts, begun) = self.starts()?;
         let limits = &self.options.extents[CONCRETE].limits;
         let read = read(coupling, limits).map_err(outside(Origin::Coupling))?;
+        let nothing = Locations::default();
         let mut machines = Vec::new();
         for side in [ABSTRACT, CONCRETE] {
             let program = &coupling.programs[side];
@@ -79,8 +80,8 @@ impl Prover<'_, '_, '_> {
                 bounds: input_values(program, &extent.bounds, &Default::default()),
                 starts: &starts[side],
                 readers: &coupling.readers[side],
-                read: &read[side],
-                watched: if side == CONCRETE { &coupling.watched } else { &[] },
+                read: &read.states[side],
+                read_in_step: if side == CONCRETE { &read.steps } else { &nothing },
             };
             machines.push(Symbolic::of(&of, &mut self.store).map_err(outside(Origin::Side(side)))?);
         }

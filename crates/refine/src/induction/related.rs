@@ -23,8 +23,17 @@ use crate::{ABSTRACT, CONCRETE};
 /// LIMIT: so many arguments of a function that a term reads are gone through.
 const ROWS: usize = 10_000;
 
+/// Locations of a machine that are read.
+pub(super) type Locations = BTreeSet<(FunctionId, Vec<Value>)>;
+
 /// What the coupling reads of each machine.
-pub(super) type Read = [BTreeSet<(FunctionId, Vec<Value>)>; 2];
+#[derive(Default)]
+pub(super) struct Read {
+    /// Of its states.
+    pub states: [Locations; 2],
+    /// Of the concrete machine's steps, with their inputs.
+    pub steps: Locations,
+}
 
 /// A term over both states.
 #[derive(Debug, Clone, Copy)]
@@ -44,7 +53,7 @@ pub(super) struct Related {
     pub ends: Node,
     pub ends_stray: Node,
     pub variant: Option<Measure>,
-    /// By input of the abstract machine, its value given the concrete state, as that machine has it.
+    /// By input of the abstract machine, its value given the concrete state and inputs, as that machine has it.
     pub given: BTreeMap<u32, (Symbol, Node)>,
 }
 
@@ -78,7 +87,7 @@ fn joint_functions(coupling: &Coupling, formula: &Expression) -> BTreeSet<Functi
     found
 }
 
-/// The terms of a coupling.
+/// The terms of a coupling that are about states.
 fn formulas(coupling: &Coupling) -> Vec<&Expression> {
     let parts = coupling.conjuncts.iter().filter_map(|part| match part {
         Conjunct::Term { formula, .. } => Some(formula),
@@ -122,16 +131,19 @@ pub(super) fn read(coupling: &Coupling, limits: &Limits) -> Result<Read, Outside
         for (side, function) in functions.iter().enumerate() {
             for row in all {
                 let there: Option<Vec<Value>> = row.iter().map(|value| bridges[side].back(value)).collect();
-                read[side].extend(there.map(|there| (*function, there)));
+                read.states[side].extend(there.map(|there| (*function, there)));
             }
         }
     }
-    for formula in formulas(coupling) {
+    let states = formulas(coupling).into_iter().map(|formula| (formula, false));
+    let steps = coupling.computed.iter().map(|(_, formula)| (formula, true));
+    for (formula, of_step) in states.chain(steps) {
         for function in joint_functions(coupling, formula) {
             let (side, there) = coupling.joint.of[&function];
+            let into = if of_step { &mut read.steps } else { &mut read.states[side] };
             for row in rows(coupling, &mut machine, function)? {
                 let arguments: Option<Vec<Value>> = row.iter().map(|value| bridges[side].back(value)).collect();
-                read[side].extend(arguments.map(|arguments| (there, arguments)));
+                into.extend(arguments.map(|arguments| (there, arguments)));
             }
         }
     }
@@ -158,7 +170,8 @@ pub(super) fn related(
 ) -> Result<Related, Outside> {
     let mut encoder = Encoder::new(joint_machine(coupling, limits), Bounds::new(), true, BTreeSet::new());
     let mut listing = joint_machine(coupling, limits);
-    for formula in formulas(coupling) {
+    let computed = coupling.computed.iter().map(|(_, formula)| formula);
+    for formula in formulas(coupling).into_iter().chain(computed) {
         for function in joint_functions(coupling, formula) {
             let (side, _) = coupling.joint.of[&function];
             for row in rows(coupling, &mut listing, function)? {
@@ -214,10 +227,11 @@ pub(super) fn related(
         variant = Some(Measure { value, known: store.terms.and([known, defined, encoded]) });
     }
     let mut given = BTreeMap::new();
-    for (input, formula) in &coupling.given {
+    for (input, formula) in coupling.given.iter().chain(&coupling.computed) {
         let (value, live) = store.lend(&mut encoder, |encoder| encoder.value(formula, Vec::new()))?;
         let odd: Vec<Node> = encoder.beyond.drain(..).map(|one| one.0).collect();
-        let odd = store.terms.or(odd.into_iter().chain([machines[CONCRETE].reads_stray]));
+        let reads_stray = [machines[CONCRETE].reads_stray, machines[CONCRETE].step_reads_stray];
+        let odd = store.terms.or(odd.into_iter().chain(reads_stray));
         let domain = coupling.joint.program.term_domain(formula.body);
         let bridge = &coupling.joint.bridges[ABSTRACT];
         let (value, fails) =

@@ -80,8 +80,8 @@ pub(super) struct Subject<'a> {
     pub readers: &'a FxHashMap<FunctionId, Expression>,
     /// What the coupling reads.
     pub read: &'a BTreeSet<(FunctionId, Vec<Value>)>,
-    /// Conditions on a step that are inputs of the abstract machine.
-    pub watched: &'a [(u32, Expression)],
+    /// What it reads of a step, with its inputs.
+    pub read_in_step: &'a BTreeSet<(FunctionId, Vec<Value>)>,
 }
 
 /// What the coupling reads of a state: the value, and the condition under which it cannot be evaluated.
@@ -113,11 +113,10 @@ pub(super) struct Symbolic {
     /// Facts about the inputs.
     pub given: Vec<Node>,
     pub inputs: Vec<Input>,
-    /// By input of the abstract machine, the condition on this step that it is.
-    pub watched: Vec<(u32, Node)>,
     pub reads: Reads,
-    /// Reading what the coupling reads may do what is not encoded.
+    /// Reading what the coupling reads of a state may do what is not encoded; and what it reads of a step.
     pub reads_stray: Node,
+    pub step_reads_stray: Node,
 }
 
 impl Symbolic {
@@ -289,7 +288,7 @@ fn encode(
     untold: &BTreeMap<usize, String>,
 ) -> Result<Made, Outside> {
     encoder.step()?;
-    let mut strays = std::mem::take(&mut encoder.beyond);
+    let strays = std::mem::take(&mut encoder.beyond);
     let course = encoder.course();
     let is_concrete = of.side == CONCRETE;
     let (mut goes, mut counts) = (course.live, Terms::TRUE);
@@ -319,15 +318,6 @@ fn encode(
         Ok(invariants) => invariants,
         Err((index, outside)) => return Ok(Err(Again::Untold(index, outside))),
     };
-    let mut watched = Vec::new();
-    for (input, formula) in of.watched {
-        let (value, live) = encoder.value(formula, Vec::new())?;
-        strays.append(&mut encoder.beyond);
-        let (holds, _) = encoder.truths(&value);
-        let unclear = encoder.terms.not(live);
-        ill.push(encoder.terms.and([course.live, unclear]));
-        watched.push((*input, encoder.terms.and([holds, live])));
-    }
     let words =
         ["an inconsistent update", "an update outside its domain", "a guard or an operation that is not defined"];
     let mut faults = Vec::new();
@@ -337,15 +327,8 @@ fn encode(
     let ill = encoder.terms.or(ill);
     faults.push(("a condition on the step that cannot be evaluated", encoder.terms.and([ill, counts])));
     let mut reads = Reads::default();
-    let mut reads_stray = Vec::new();
-    for (function, arguments) in of.read {
-        let known = arguments.iter().cloned().map(Symbol::Known).collect();
-        let (value, live) = encoder.value(&of.readers[function], known)?;
-        reads_stray.extend(std::mem::take(&mut encoder.beyond).into_iter().map(|one| one.0));
-        let fails = encoder.terms.not(live);
-        reads.insert((*function, arguments.clone()), (value, fails));
-    }
-    let reads_stray = encoder.terms.or(reads_stray);
+    let reads_stray = look_up(encoder, of, of.read, &mut reads)?;
+    let step_reads_stray = look_up(encoder, of, of.read_in_step, &mut reads)?;
     let (mut state, mut next, mut moves) = (Vec::new(), Vec::new(), Vec::new());
     let mut starts = vec![Vec::new(); begun.len()];
     let mut more = BTreeSet::new();
@@ -405,11 +388,29 @@ fn encode(
         invariants,
         given: encoder.given.clone(),
         inputs: encoder.inputs.clone(),
-        watched,
         reads,
         reads_stray,
+        step_reads_stray,
         places: places.into_iter().filter(|place| place.kept).collect(),
     }))
+}
+
+/// Reads locations; the condition under which that may do what is not encoded.
+fn look_up(
+    encoder: &mut Encoder,
+    of: &Subject<'_>,
+    locations: &BTreeSet<(FunctionId, Vec<Value>)>,
+    reads: &mut Reads,
+) -> Result<Node, Outside> {
+    let mut stray = Vec::new();
+    for (function, arguments) in locations {
+        let known = arguments.iter().cloned().map(Symbol::Known).collect();
+        let (value, live) = encoder.value(&of.readers[function], known)?;
+        stray.extend(std::mem::take(&mut encoder.beyond).into_iter().map(|one| one.0));
+        let fails = encoder.terms.not(live);
+        reads.insert((*function, arguments.clone()), (value, fails));
+    }
+    Ok(encoder.terms.or(stray))
 }
 
 /// The location that an input is the value of.
