@@ -1,12 +1,12 @@
-//! When it matters that inputs had only some of their values.
+//! When it matters for a proof that inputs had only some of their values.
 //!
-//! In: a product that was searched, the bounds that it was searched with. Out: the bounds for which a verdict is not sure. A bound leaves
+//! In: a product that was searched, the bounds that it was searched with. Out: the bounds for which a proof is not sure. A bound leaves
 //! something out only if a step or an initial state looked at the input, and if the input is [`crate::limited`]. INVARIANT: where nothing is
-//! returned, a search without these bounds gives the same verdict.
+//! returned, a search without these bounds gives the same proof. What bounds leave out of the abstract machine's answers is unclear in
+//! the game itself ([`crate::product`]).
 
 use std::collections::BTreeSet;
 
-use explore::input_values;
 use machine::Value;
 use program::FunctionId;
 
@@ -16,25 +16,10 @@ use crate::product::Product;
 use crate::report::Why;
 use crate::{ABSTRACT, CONCRETE};
 
-/// How an input of the abstract machine gets its value.
-enum Source {
-    /// It takes what it likes.
-    Free,
-    /// It is an input of the concrete machine.
-    Input(FunctionId),
-    /// It is a term over the concrete machine, which has its value in every step.
-    Term,
-}
-
-fn source(product: &Product<'_>, input: FunctionId) -> Source {
-    let shared = &product.judge.coupling.shared;
-    if !shared[ABSTRACT].contains_key(&input) {
-        return Source::Free;
-    }
-    let mut there: Vec<FunctionId> =
-        shared[CONCRETE].iter().filter(|(_, named)| named.contains(&input.0)).map(|(there, _)| *there).collect();
-    there.sort_unstable();
-    there.first().map_or(Source::Term, |there| Source::Input(*there))
+/// The input of the concrete machine that an input of the abstract one is; none if this is free, or a term.
+fn counterpart(product: &Product<'_>, input: FunctionId) -> Option<FunctionId> {
+    let shared = &product.judge.coupling.shared[CONCRETE];
+    shared.iter().filter(|(_, named)| named.contains(&input.0)).map(|(there, _)| *there).min()
 }
 
 /// Whether all values of an input of the concrete machine are among those that an input of the abstract one had.
@@ -48,31 +33,15 @@ fn within(product: &Product<'_>, values: Option<&Vec<Value>>, abstract_values: &
     all.zip(had).is_some_and(|(all, had)| all.is_subset(&had))
 }
 
-/// The bounds without which the abstract machine might have had an answer.
-pub(crate) fn of_refutation(product: &Product<'_>, extents: &[Extent; 2]) -> Vec<Why> {
-    let matters = |input: &FunctionId| match source(product, *input) {
-        Source::Free | Source::Term => true,
-        // What the concrete machine's input may be, bounds included.
-        Source::Input(there) => {
-            let program = &product.sides[CONCRETE].program;
-            let given = input_values(program, &extents[CONCRETE].bounds, &extents[CONCRETE].undefined).remove(&there);
-            let all = given.or_else(|| all_values(program, &extents[CONCRETE], there));
-            !within(product, all.as_ref(), &extents[ABSTRACT].bounds[input])
-        }
-    };
-    let looked = product.sides[ABSTRACT].limited_and_read();
-    looked.into_iter().filter(matters).map(|input| Why::Bounded(ABSTRACT, input)).collect()
-}
-
 /// The bounds without which there might have been more to answer.
 pub(crate) fn of_proof(product: &Product<'_>, extents: &[Extent; 2]) -> Vec<Why> {
     let of_concrete = product.sides[CONCRETE].limited_and_read();
     // An input that the concrete machine ignores takes the values that the abstract machine was searched with.
-    let matters = |input: &FunctionId| match source(product, *input) {
-        Source::Free | Source::Term => false,
+    let matters = |input: &FunctionId| match counterpart(product, *input) {
+        None => false,
         // It is told already.
-        Source::Input(there) if of_concrete.contains(&there) => false,
-        Source::Input(there) => {
+        Some(there) if of_concrete.contains(&there) => false,
+        Some(there) => {
             let all = all_values(&product.sides[CONCRETE].program, &extents[CONCRETE], there);
             !within(product, all.as_ref(), &extents[ABSTRACT].bounds[input])
         }

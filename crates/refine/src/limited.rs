@@ -3,7 +3,7 @@
 //! In: a program and what it is explored with. Out: the inputs that are limited: their domains and the assumptions leave them more values
 //! than the bounds. Bounds that are assumed limit nothing: the verdict is about these values.
 
-use std::collections::BTreeSet;
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use explore::input_values;
@@ -29,15 +29,31 @@ pub(crate) fn all_values(program: &Arc<Program>, extent: &Extent, function: Func
     Machine::new(Arc::clone(program), extent.limits.clone()).elements(domain).ok()
 }
 
+/// Bounds that leave out values of an input.
+#[derive(Debug)]
+pub(crate) struct Limit {
+    tried: Vec<Value>,
+    /// All that the domain and the assumptions leave, if they can be listed.
+    all: Option<Vec<Value>>,
+}
+
+impl Limit {
+    /// Whether a value may be one that was left out.
+    pub fn leaves_out(&self, value: &Value) -> bool {
+        !self.tried.contains(value) && self.all.as_ref().is_none_or(|all| all.contains(value))
+    }
+}
+
 /// The inputs of which bounds leave out values that the domain and the assumptions leave.
-pub(crate) fn limited(program: &Arc<Program>, extent: &Extent) -> BTreeSet<FunctionId> {
-    let given = input_values(program, &extent.bounds, &extent.undefined);
+pub(crate) fn limited(program: &Arc<Program>, extent: &Extent) -> BTreeMap<FunctionId, Limit> {
+    let mut given = input_values(program, &extent.bounds, &extent.undefined);
     let bounds = extent.bounds.keys().filter(|function| !extent.assumed.contains_key(function));
-    let leaves_out = |function: &FunctionId| {
-        let all = all_values(program, extent, *function);
-        !all.is_some_and(|all| all.iter().all(|value| given[function].contains(value)))
+    let limit = |function: &FunctionId| {
+        let limit = Limit { tried: given.remove(function)?, all: all_values(program, extent, *function) };
+        let whole = limit.all.as_ref().is_some_and(|all| all.iter().all(|value| limit.tried.contains(value)));
+        (!whole).then_some((*function, limit))
     };
-    bounds.copied().filter(leaves_out).collect()
+    bounds.filter_map(limit).collect()
 }
 
 /// Options in which an input of the abstract machine that has no values to try has those of the concrete machine's input that it is: both

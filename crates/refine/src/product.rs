@@ -12,6 +12,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 
 use explore::{Start, Unbounded};
+use machine::Value;
+use program::FunctionId;
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::judge::Judge;
@@ -38,6 +40,8 @@ pub(crate) enum Unclear {
     Long,
     /// There are too many values of inputs.
     Valuations,
+    /// Bounds leave out values of an input of the abstract machine, with which it might have an answer.
+    Bounded(FunctionId),
 }
 
 /// What the concrete machine does, or its environment.
@@ -337,8 +341,27 @@ impl<'c> Product<'c> {
         })
     }
 
+    /// What bounds leave out of the steps of an abstract state, or of the abstract machine's initial states, in a diagram with these
+    /// inputs. An input at which the concrete machine did not look has any value, of which those that were tried must be answered, too.
+    fn left_out(&self, at: Option<StateId>, reads: &Reads) -> Option<Unclear> {
+        let coupling = self.judge.coupling;
+        let bridge = &coupling.joint.bridges[ABSTRACT];
+        let mut looked = self.sides[ABSTRACT].limited_at(at);
+        let lacking = looked.find(|(location, limit)| {
+            if !coupling.shared[ABSTRACT].contains_key(&location.function) {
+                return true;
+            }
+            let arguments: Option<Vec<Value>> = location.arguments.iter().map(|value| bridge.over(value)).collect();
+            let place = arguments.and_then(|arguments| self.inputs.location(location.function.0, arguments));
+            let had = place.and_then(|place| reads.get(&place)).into_iter().flatten();
+            let mut own = had.filter_map(|value| bridge.back(&self.inputs.told_values[*value as usize]));
+            own.any(|value| limit.leaves_out(&value))
+        });
+        lacking.map(|(location, _)| Unclear::Bounded(location.function))
+    }
+
     fn initial_runs(&mut self, reads: &Reads) -> AbstractRuns {
-        let mut found = AbstractRuns::default();
+        let mut found = AbstractRuns { unclear: self.left_out(None, reads), ..AbstractRuns::default() };
         for (label, state, _) in self.initial.clone() {
             if let Some(needs) = fitting(&label, reads, &[], &mut found.values) {
                 found.runs.push(AbstractRun { to: state, m: 0, needs });
@@ -356,7 +379,9 @@ impl<'c> Product<'c> {
             let mut next = Vec::new();
             let mut seen = FxHashSet::default();
             for run in last {
-                for made in self.abstract_moves(run.to)?.iter() {
+                let moves = self.abstract_moves(run.to)?;
+                found.unclear = found.unclear.or(self.left_out(Some(run.to), reads));
+                for made in moves.iter() {
                     let Some(needs) = fitting(&made.label, reads, &run.needs, &mut found.values) else { continue };
                     match &made.goal {
                         Goal::State(to) => {

@@ -1,14 +1,14 @@
 //! The whole question: explores the pairs, decides the game, reports.
 //!
 //! In: a [`Coupling`] and [`Options`]. Out: a [`Report`]. The search goes breadth-first; a limit ends it, and then only a refutation
-//! that needs nothing of what was not looked at is told. INVARIANT: *refines* is said only if every pair that the answers use was looked
+//! that needs nothing of what was not looked at is told. So it is where bounds leave out values of inputs. INVARIANT: *refines* is said only if every pair that the answers use was looked
 //! at; *does not refine* only if the concrete machine wins whatever was not looked at.
 
 use explore::{Unbounded, Widening};
 use machine::{Cause, Fault};
 use program::PropertyKind;
 
-use crate::bounded::{of_proof, of_refutation};
+use crate::bounded::of_proof;
 use crate::computed::Computed;
 use crate::coupling::Coupling;
 use crate::evidence;
@@ -178,10 +178,17 @@ fn attempt(
     let said = says(&mut product, is_complete);
     let hopeful = solve(&product, Rules::of(&product, true));
     let bounded = of_proof(&product, &options.extents);
-    // With other values of its inputs the abstract machine might have had an answer.
-    let lacking = if hopeful.won { Vec::new() } else { of_refutation(&product, &options.extents) };
     let verdict = match said {
-        _ if !lacking.is_empty() => Verdict::Unknown(lacking),
+        // With other values of inputs there may be initial states.
+        Says::Nothing(Vacuous::NoStart(side)) if !product.sides[side].limited.is_empty() => {
+            let limited = product.sides[side].limited.keys();
+            Verdict::Unknown(limited.map(|input| Why::Bounded(side, *input)).collect())
+        }
+        // So there may be one that corresponds.
+        Says::Nothing(Vacuous::NoInitialPair(_)) if hopeful.won => {
+            unclear(&product, &mut whys);
+            Verdict::Unknown(whys.0)
+        }
         Says::Nothing(vacuous @ (Vacuous::NoStart(_) | Vacuous::NoInitialPair(_))) => Verdict::Vacuous(vacuous),
         // What cannot be answered is a fault, whatever else the coupling says.
         _ if !hopeful.won => Verdict::DoesNot(Box::new(evidence::refutation(&mut product, &hopeful))),
@@ -259,6 +266,7 @@ fn unclear(product: &Product<'_>, whys: &mut Whys) {
             Some(Unclear::Unbounded(side, unbounded)) => whys.add(Why::Unbounded(side, unbounded)),
             Some(Unclear::Long) => whys.add(Why::Long(product.judge.coupling.diagrams.most_concrete())),
             Some(Unclear::Valuations) => whys.add(Why::Valuations),
+            Some(Unclear::Bounded(input)) => whys.add(Why::Bounded(ABSTRACT, input)),
         }
     }
 }

@@ -4,7 +4,7 @@
 //! both machines share, so that they can be compared. INVARIANT: a state's moves are all of them, in the order of its alternatives, or
 //! the state has none and [`Stopped`] says why.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::hash::{Hash, Hasher};
 use std::ops::ControlFlow;
 use std::rc::Rc;
@@ -21,7 +21,7 @@ use rustc_hash::{FxHashMap, FxHashSet};
 use crate::CONCRETE;
 use crate::computed::{Computed, Values};
 use crate::joint::Bridge;
-use crate::limited::limited;
+use crate::limited::{Limit, limited};
 use crate::options::Extent;
 
 /// The number of a state of one machine.
@@ -41,6 +41,11 @@ pub(crate) struct Inputs {
 }
 
 impl Inputs {
+    /// The number of an input's location, if any value of it has been met.
+    pub fn location(&self, input: u32, arguments: Vec<Value>) -> Option<u32> {
+        self.locations.get(&(input, arguments)).copied()
+    }
+
     /// The numbers of an input's location and value.
     pub fn number(&mut self, input: u32, arguments: Vec<Value>, value: Value) -> (u32, u32) {
         let next = self.locations.len() as u32;
@@ -116,9 +121,9 @@ pub(crate) struct Side {
     reads: Vec<FxHashMap<(FunctionId, Vec<Value>), Value>>,
     /// By function, the term that reads it.
     readers: FxHashMap<FunctionId, Expression>,
-    /// Inputs of which bounds leave out values, and those of them that a step or an initial state looked at.
-    limited: BTreeSet<FunctionId>,
-    looked_at: BTreeSet<FunctionId>,
+    /// Inputs of which bounds leave out values, and their locations at which the initial states or the steps of a state looked.
+    pub limited: BTreeMap<FunctionId, Limit>,
+    looked_at: BTreeMap<Option<StateId>, BTreeSet<Location>>,
     /// How many different steps there are, and how many change the state.
     pub steps: (u64, u64),
     /// The most steps of one state that are gone through.
@@ -161,7 +166,7 @@ impl Side {
             reads: Vec::new(),
             readers,
             limited: limited(program, extent),
-            looked_at: BTreeSet::new(),
+            looked_at: BTreeMap::new(),
             steps: (0, 0),
             most: u64::MAX,
         })
@@ -189,14 +194,20 @@ impl Side {
     }
 
     /// Inputs of which bounds leave out values, and at which the machine looked.
-    pub fn limited_and_read(&self) -> Vec<FunctionId> {
-        self.looked_at.iter().copied().collect()
+    pub fn limited_and_read(&self) -> BTreeSet<FunctionId> {
+        self.looked_at.values().flatten().map(|location| location.function).collect()
     }
 
-    fn look_at(&mut self, read: &[(Location, Value)]) {
-        if !self.limited.is_empty() {
-            let read = read.iter().map(|(location, _)| location.function);
-            self.looked_at.extend(read.filter(|function| self.limited.contains(function)));
+    /// The locations of such inputs at which the steps of a state looked, or the initial states.
+    pub fn limited_at(&self, at: Option<StateId>) -> impl Iterator<Item = (&Location, &Limit)> {
+        let all = self.looked_at.get(&at).into_iter().flatten();
+        all.map(|location| (location, &self.limited[&location.function]))
+    }
+
+    fn look_at(&mut self, at: Option<StateId>, read: &[(Location, Value)]) {
+        let limited = read.iter().filter(|(location, _)| self.limited.contains_key(&location.function));
+        for (location, _) in limited {
+            self.looked_at.entry(at).or_default().insert(location.clone());
         }
     }
 
@@ -234,14 +245,15 @@ impl Side {
         let mut found = Vec::new();
         let mut seen = FxHashSet::default();
         for (state, start) in starts {
-            if !self.is_assumed(&state) {
-                continue;
-            }
             let told = match self.shared.is_empty() && self.limited.is_empty() {
                 true => Told::default(),
                 false => self.explorer.told_of_start(start),
             };
-            self.look_at(&told.inputs);
+            // With other values there may be states that the assumptions admit.
+            self.look_at(None, &told.inputs);
+            if !self.is_assumed(&state) {
+                continue;
+            }
             let label = self.label_of_inputs(&told.inputs, inputs, bridge);
             let state = self.number(state);
             if seen.insert((Rc::clone(&label), state)) {
@@ -358,7 +370,7 @@ impl Side {
         let mut moves = Vec::new();
         let mut seen = FxHashSet::default();
         for (Path { inputs: read, outcome, .. }, values) in paths {
-            self.look_at(&read);
+            self.look_at(Some(state), &read);
             let mut label = self.label(&read, values, inputs, bridge);
             if !given.is_empty() {
                 let mut all: Vec<(u32, u32)> = label.iter().chain(given).copied().collect();

@@ -271,6 +271,56 @@ fn so_it_is_where_an_input_is_computed_from_inputs() {
     agree(2, two, |go, (_, h)| go == h);
 }
 
+/// Bounds make it not known, or change nothing; and where the input is the same in both, what is refuted stays refuted mostly.
+#[test]
+fn bounds_change_no_verdict() {
+    let cases = if std::env::var_os("GROUNDSTATE_FULL").is_some() { 4000 } else { 400 };
+    let couplings = [
+        "same n;",
+        "same n; free abstract.go;",
+        "same n; input abstract.go = concrete.h;",
+        "same n; input abstract.go = not concrete.go;",
+        "same n; diagrams 0..2:1..2;",
+        "same n; diagrams 0..2:1..2; free abstract.go;",
+    ];
+    let mut counts = [[0; 3]; 2];
+    for seed in 0..cases {
+        let mut random = Random(seed * 6101 + 5);
+        let abstractly = rule(&mut random);
+        let concretely = changed(&mut random, &abstractly);
+        let programs = [machine_of(&abstractly), machine_of(&concretely)];
+        let text = random.pick(&couplings);
+        let whole = report(&programs[0], &programs[1], Some(text)).verdict;
+        let source = Some(syntax::SourceFile::new("c.refine", text));
+        let coupling =
+            refine::Coupling::new([&programs[0], &programs[1]], source, &Limits::default()).expect("no faults");
+        let mut options = refine::Options::default();
+        let sides = random.below(3) + 1;
+        for side in (0..2).filter(|side| sides & (1 << side) > 0) {
+            let go = programs[side].find_function("go", 0).expect("an input");
+            options.extents[side].bounds.insert(go, vec![Value::Boolean(random.below(2) == 0)]);
+        }
+        let found = refine::refine(&coupling, &options, &mut |_| true).expect("it begins").verdict;
+        let of = || {
+            format!(
+                "seed {seed}: {text}\nabstract {abstractly}\nconcrete {concretely}\n{:?}\n{whole:?}\n{found:?}",
+                options.extents
+            )
+        };
+        match (&whole, &found) {
+            (Verdict::Refines, Verdict::Refines) => counts[0][0] += 1,
+            (Verdict::Refines, Verdict::Unknown(_)) => counts[0][1] += 1,
+            (Verdict::DoesNot(_), Verdict::DoesNot(_)) => counts[1][0] += 1,
+            (Verdict::DoesNot(_), Verdict::Unknown(_)) => counts[1][1] += 1,
+            // What is left may say nothing.
+            (_, Verdict::Vacuous(_)) => counts[0][2] += 1,
+            (Verdict::Vacuous(_), Verdict::Unknown(_)) => counts[1][2] += 1,
+            _ => panic!("{}", of()),
+        }
+    }
+    assert!(counts.iter().all(|of| of[0] * 20 > cases && of[1] * 20 > cases), "{counts:?}");
+}
+
 /// With diagrams of at most so many steps.
 fn agree(most: usize, coupling: &str, mapped: Mapped) {
     let cases = if std::env::var_os("GROUNDSTATE_FULL").is_some() { 2000 } else { 150 };

@@ -214,6 +214,102 @@ fn what_says_nothing_of_some_values_hides_no_fault() {
     assert!(matches!(bounded(&one), Verdict::Unknown(_)), "{:?}", bounded(&one));
 }
 
+/// The verdict where inputs have these values, by side; all of their domains where nothing is said.
+fn bounded(programs: [&Arc<Program>; 2], text: &str, bounds: [&[(&str, &[machine::Value])]; 2]) -> Verdict {
+    let file = Some(SourceFile::new("c.refine", text));
+    let coupling = Coupling::new(programs, file, &machine::Limits::default()).expect("no faults");
+    let mut options = Options::default();
+    for (side, bounds) in bounds.into_iter().enumerate() {
+        for (name, values) in bounds {
+            let input = programs[side].find_function(name, 0).expect("an input");
+            options.extents[side].bounds.insert(input, values.to_vec());
+        }
+    }
+    refine(&coupling, &options, &mut |_| true).expect("it begins").verdict
+}
+
+const LEVEL: &str =
+    "domain Level subsetof Integer monitored level: Level controlled last: Level controlled odd: Boolean";
+
+fn levels(rule: &str) -> Arc<Program> {
+    let domain = "domain Level = {0:3}";
+    machine(LEVEL, &format!("{domain} main rule r_Main = {rule}"), "function last = 0 function odd = false")
+}
+
+/// A run that nothing matches refutes the refinement, unless it was the answers that were left out.
+#[test]
+fn bounds_hide_a_refutation_only_where_they_leave_out_answers() {
+    let value = machine::Value::Integer;
+    let low: &[machine::Value] = &[value(0), value(1)];
+    let is_refuted = |verdict: Verdict| match verdict {
+        Verdict::DoesNot(_) => true,
+        Verdict::Unknown(why) => {
+            assert!(matches!(why[..], [refine::Why::Bounded(refine::ABSTRACT, _)]), "{why:?}");
+            false
+        }
+        other => panic!("{other:?}"),
+    };
+    let one = levels("last := level");
+    let wrong = levels("last := (level + 1) mod 4");
+    // Values of the concrete machine's input that are left out are runs that nobody looked at.
+    assert!(is_refuted(bounded([&one, &wrong], "same last;", [&[], &[("level", low)]])));
+    assert!(is_refuted(bounded([&one, &wrong], "same last;", [&[("level", low)], &[("level", low)]])));
+    // The abstract machine never had 2 or 3, with which it would have an answer to them; but it had those to 0 and 1.
+    assert!(is_refuted(bounded([&one, &wrong], "same last;", [&[("level", low)], &[]])));
+    assert!(!is_refuted(bounded([&one, &one], "same last;", [&[("level", low)], &[]])));
+    let at_three = levels("last := if level = 3 then 0 else level endif");
+    assert!(!is_refuted(bounded([&one, &at_three], "same last;", [&[("level", low)], &[]])));
+    let all: &[machine::Value] = &[value(0), value(1), value(2), value(3)];
+    assert!(is_refuted(bounded([&one, &at_three], "same last;", [&[("level", all)], &[]])));
+    // A free input might have had another value wherever the machine looks at it, and nowhere else.
+    let free = "same last, odd; free abstract.level;";
+    let counts = levels("last := 2");
+    assert!(!is_refuted(bounded([&one, &counts], free, [&[("level", low)], &[]])));
+    let blinks = levels("par last := 1 odd := not odd endpar");
+    assert!(!is_refuted(bounded([&one, &blinks], free, [&[("level", low)], &[]])));
+    let once = levels("last := if last = 3 then level else last + 1 endif");
+    let late = "if last = 3 then last := 1 elseif last = 2 then choose $x in Level with $x = 3 or $x = BACK do last := $x else last := last + 1 endif";
+    assert!(is_refuted(bounded([&once, &levels(&late.replace("BACK", "0"))], free, [&[("level", low)], &[]])));
+    assert_eq!(bounded([&once, &levels(&late.replace("BACK", "3"))], free, [&[("level", low)], &[]]), Verdict::Refines);
+    // So it is of a step that cannot be made.
+    let faulty = levels("choose $x in Level with $x < 2 do last := if $x = 0 then 1 else last + 4 endif");
+    assert!(is_refuted(bounded([&one, &faulty], free, [&[("level", low)], &[]])));
+    // A term is what it is, whether or not that was tried.
+    let term = "same last, odd; input abstract.level = concrete.last;";
+    let stays = levels("last := if last = 0 then level else last endif");
+    assert!(!is_refuted(bounded([&one, &levels("last := 1")], term, [&[("level", &[value(3)])], &[]])));
+    assert!(is_refuted(bounded([&one, &levels("last := 1")], term, [&[("level", low)], &[]])));
+    assert!(is_refuted(bounded(
+        [&one, &stays],
+        "same last; input abstract.level = 3 - concrete.level;",
+        [&[("level", all)], &[("level", low)],]
+    )));
+}
+
+/// So it is of initial states.
+#[test]
+fn bounds_may_leave_out_initial_states() {
+    let begun = |level: &str| {
+        let rule = "domain Level = {0:3} main rule r_Main = odd := not odd";
+        machine(LEVEL, rule, &format!("function odd = false function last = {level}"))
+    };
+    let value = machine::Value::Integer;
+    let free = "same last, odd; free abstract.level;";
+    let (one, other) = (begun("level"), begun("3"));
+    assert_eq!(bounded([&one, &other], free, [&[], &[]]), Verdict::Refines);
+    let input = one.find_function("level", 0).expect("an input");
+    let unknown = Verdict::Unknown(vec![refine::Why::Bounded(refine::ABSTRACT, input)]);
+    assert_eq!(bounded([&one, &other], free, [&[("level", &[value(0)])], &[]]), unknown);
+    let wrong = begun("if level = 0 then 0 else 1 endif");
+    let verdict = bounded([&wrong, &other], free, [&[("level", &[value(0), value(1)])], &[]]);
+    assert_eq!(verdict, Verdict::Unknown(vec![refine::Why::Bounded(refine::ABSTRACT, input)]));
+    let verdict = bounded([&wrong, &other], free, [&[], &[]]);
+    assert!(matches!(verdict, Verdict::Vacuous(Vacuous::NoInitialPair(_))), "{verdict:?}");
+    // Where both have the input, that of the concrete machine says what it is.
+    let verdict = bounded([&one, &other], "same last, odd;", [&[("level", &[value(0)])], &[]]);
+    assert!(matches!(verdict, Verdict::Vacuous(Vacuous::NoInitialPair(_))), "{verdict:?}");
+}
+
 /// Enumerations with the same literals in another order are the same; what differs is told.
 #[test]
 fn literals_are_compared_by_their_names() {
