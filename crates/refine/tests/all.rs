@@ -1,6 +1,7 @@
 //! The tests of `refine` as one program. Each file of this folder is a module here.
 
 mod broken;
+mod computed;
 mod enumerated;
 mod induction;
 mod invariants;
