@@ -21,10 +21,12 @@ pub fn example(text: &str) -> Arc<Program> {
 
 /// A machine with this signature, main rule and initial state.
 pub fn machine(signature: &str, rule: &str, init: &str) -> Arc<Program> {
-    let text = format!(
-        "asm M\nimport StandardLibrary\nsignature:\n{signature}\ndefinitions:\n{rule}\ndefault init s0:\n{init}\n"
-    );
-    program("M", &text)
+    program("M", &text_of(signature, rule, init))
+}
+
+/// The text of such a machine.
+pub fn text_of(signature: &str, rule: &str, init: &str) -> String {
+    format!("asm M\nimport StandardLibrary\nsignature:\n{signature}\ndefinitions:\n{rule}\ndefault init s0:\n{init}\n")
 }
 
 pub fn report(one: &Arc<Program>, other: &Arc<Program>, coupling: Option<&str>) -> Report {

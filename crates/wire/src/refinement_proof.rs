@@ -75,6 +75,19 @@ struct StuckLine {
     fault: Option<String>,
     /// What the abstract machine could do.
     tried: Vec<AttemptLine>,
+    /// The faults that the machines come to in this pair: the concrete one in its last step, the abstract one in its first.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    faults: Vec<ReplayedLine>,
+}
+
+/// Why a step cannot be made.
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+struct ReplayedLine {
+    model: &'static str,
+    message: String,
+    /// Where, as `FILE:LINE:COLUMN`; of a clash both updates.
+    at: Vec<String>,
 }
 
 #[derive(Debug, Serialize)]
@@ -106,7 +119,7 @@ impl ProofLine {
             accepted: obligation.is_accepted(),
         };
         let stuck = match &proof.gap {
-            Some(Gap::Stuck(_, stuck)) => Some(StuckLine::new(stuck)),
+            Some(Gap::Stuck(_, stuck)) => Some(StuckLine::new(words, stuck)),
             _ => None,
         };
         ProofLine {
@@ -135,7 +148,14 @@ impl StuckStep {
 }
 
 impl StuckLine {
-    fn new(stuck: &Stuck) -> StuckLine {
+    fn new(words: &Refinements<'_>, stuck: &Stuck) -> StuckLine {
+        let mut faults = Vec::new();
+        for side in [ABSTRACT, CONCRETE] {
+            faults.extend(stuck.faults[side].iter().map(|fault| {
+                let (message, at) = words.replayed(side, fault);
+                ReplayedLine { model: SIDES[side], message, at }
+            }));
+        }
         let attempt = |attempt: &groundstate::refine::Attempt| AttemptLine {
             steps: attempt.m,
             fails: attempt.parts.clone(),
@@ -147,6 +167,7 @@ impl StuckLine {
             steps: stuck.steps.iter().map(StuckStep::new).collect(),
             fault: stuck.fault.clone(),
             tried: stuck.tried.iter().map(attempt).collect(),
+            faults,
         }
     }
 }

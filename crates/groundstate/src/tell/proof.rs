@@ -3,6 +3,7 @@
 //! In: a proof, the words for the two models. Out: lines. INVARIANT: a pair of states from which an obligation fails is never called a
 //! counterexample: no run need reach it.
 
+use machine::{Fault, FaultKind};
 use refine::{ABSTRACT, Attempt, CONCRETE, Gap, Known, Obligation, Origin, Proof, SIDES, Said, Stuck};
 
 use super::{Refinements, plural};
@@ -130,13 +131,22 @@ impl Refinements<'_> {
             let mut what: Vec<String> = inputs.iter().map(|(name, value)| format!("in {name} = {value}")).collect();
             what.extend(changes.iter().map(|(name, value)| format!("{name} becomes {value}")));
             let is_last = number + 1 == stuck.steps.len();
-            what.extend(stuck.fault.iter().filter(|_| is_last).map(|fault| format!("it comes to {fault}")));
+            let faults = &stuck.faults[CONCRETE];
+            match &stuck.fault {
+                Some(fault) if is_last && faults.is_empty() => what.push(format!("it comes to {fault}")),
+                Some(_) if is_last => what.extend(faults.iter().map(|fault| self.cannot(CONCRETE, fault))),
+                Some(_) | None => {}
+            }
             if what.is_empty() {
                 what.push("no change".to_string());
             }
             lines.push(format!("  step {} of the concrete machine: {}", number + 1, what.join(", ")));
         }
         lines.extend(stuck.tried.iter().map(|attempt| format!("  {}", tried(attempt))));
+        let faults = stuck.faults[ABSTRACT].iter();
+        lines.extend(
+            faults.map(|fault| format!("  if the abstract machine makes a step, {}", self.cannot(ABSTRACT, fault))),
+        );
         if stuck.tried.is_empty() && stuck.fault.is_none() {
             lines.push("  the abstract machine has no step that could answer".to_string());
         }
@@ -154,6 +164,23 @@ impl Refinements<'_> {
                 .to_string(),
         );
         lines
+    }
+
+    /// Why a step cannot be made, with its places.
+    fn cannot(&self, side: usize, fault: &Fault) -> String {
+        let (message, places) = self.replayed(side, fault);
+        format!("it cannot be made: {message}, at {}", places.join(" and "))
+    }
+
+    /// A fault to which a machine comes where an obligation fails: a sentence, and the places of it; of a clash those of both updates.
+    pub fn replayed(&self, side: usize, fault: &Fault) -> (String, Vec<String>) {
+        let model = &self.models[side];
+        let spans = match &fault.kind {
+            FaultKind::InconsistentUpdate { first, second, .. } => vec![first.span, second.span],
+            _ => vec![fault.span],
+        };
+        let places = spans.into_iter().map(|span| model.sources.position(span)).collect();
+        (fault.show(&model.program).to_string(), places)
     }
 }
 

@@ -60,7 +60,8 @@ pub(super) struct Diagrams<'d> {
     pub related: &'d Related,
     /// The concrete state reached.
     state: Vec<Node>,
-    offered: Offered,
+    /// What inputs of the abstract machine may be.
+    pub offered: Offered,
     steps: u32,
 }
 

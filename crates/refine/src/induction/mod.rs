@@ -13,6 +13,7 @@ mod invariants;
 pub(crate) mod proof;
 mod prover;
 mod related;
+mod replay;
 mod steps;
 mod stuck;
 mod symbolic;
@@ -83,8 +84,15 @@ pub fn prove(
     let progress = report.progress;
     let mut go_on = || watch(&progress) && options.extents.iter().all(|extent| !extent.interrupt.is_raised());
     let ask = Ask { solvers, seconds, go_on: &mut go_on, obligations: Vec::new(), stopped: false };
-    let mut prover =
-        Prover { coupling, options, ask, store: Store::default(), diagrams: Vec::new(), known: Vec::new() };
+    let mut prover = Prover {
+        coupling,
+        options,
+        ask,
+        store: Store::default(),
+        diagrams: Vec::new(),
+        known: Vec::new(),
+        begun: Default::default(),
+    };
     let outcome = prover.all();
     let Prover { ask, diagrams, known, .. } = prover;
     let Ask { obligations, stopped, .. } = ask;

@@ -3,6 +3,7 @@
 //! INVARIANT: an obligation counts as accepted only on the word of two solvers, that the formula cannot be satisfied; a check of sense (that
 //! a formula can be) on that of one, if none denies it. It must not know how any of this is told.
 
+use machine::Fault;
 use solve::Outside;
 
 use crate::why::Differs;
@@ -87,6 +88,8 @@ pub struct Stuck {
     pub fault: Option<String>,
     /// What the abstract machine could do.
     pub tried: Vec<Attempt>,
+    /// By side, the faults that the machine comes to in this pair: the concrete one in its last step, the abstract one in its first.
+    pub faults: [Vec<Fault>; 2],
 }
 
 /// Why a proof is not whole.

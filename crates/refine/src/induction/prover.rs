@@ -49,6 +49,8 @@ pub(super) struct Prover<'p, 's, 'w> {
     pub store: Store,
     pub diagrams: Vec<(u32, u32)>,
     pub known: Vec<Known>,
+    /// By side, what the first initial state took from outside.
+    pub begun: [Told; 2],
 }
 
 /// An initial state of the concrete machine, and one of the abstract machine that corresponds if there is one.
@@ -62,6 +64,7 @@ impl Prover<'_, '_, '_> {
     pub fn all(&mut self) -> Result<(), Ended> {
         let coupling = self.coupling;
         let (starts, begun) = self.starts()?;
+        self.begun = [ABSTRACT, CONCRETE].map(|side| starts[side].first().cloned().unwrap_or_default());
         let limits = &self.options.extents[CONCRETE].limits;
         let read = read(coupling, limits).map_err(outside(Origin::Coupling))?;
         let nothing = Locations::default();

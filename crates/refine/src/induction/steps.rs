@@ -4,14 +4,18 @@
 //! behind which the diagram may end need be answered only if no longer diagram is: what is left goes on. INVARIANT: the last obligation
 //! leaves nothing.
 
+use explore::input_values;
+use machine::{Fault, FaultClass};
 use solve::shared::{Node, Terms};
 
+use super::answers::Offered;
 use super::diagrams::{Answer, Diagrams, Step};
 use super::proof::{Gap, Obligation, Origin, Said};
 use super::prover::{End, Ended, Prover, outside};
 use super::related::Related;
+use super::replay::{Scene, Stage, faults};
 use super::stuck;
-use super::symbolic::{Symbolic, nowhere};
+use super::symbolic::{Symbolic, class_in_words, nowhere};
 use crate::{ABSTRACT, CONCRETE};
 
 /// LIMIT: so many diagrams are asked whether answers use them.
@@ -50,7 +54,7 @@ impl Prover<'_, '_, '_> {
             ends.push((n, ended, answers));
             if has_end {
                 let unmatched = self.store.terms.and([ended, not]);
-                self.step_is_answered(machines, unmatched, &steps, &ends, n)?;
+                self.step_is_answered(machines, unmatched, &steps, &ends, &diagrams.offered)?;
                 let further = self.store.terms.not(ends_here);
                 path = self.store.terms.and([gone, further]);
                 if self.segment_is_over(machines, path, &steps, n, most)? {
@@ -59,7 +63,7 @@ impl Prover<'_, '_, '_> {
             } else {
                 path = self.store.terms.and([gone, not]);
                 if n == most || self.is_over(path) {
-                    self.step_is_answered(machines, path, &steps, &ends, n)?;
+                    self.step_is_answered(machines, path, &steps, &ends, &diagrams.offered)?;
                     break;
                 }
             }
@@ -92,7 +96,13 @@ impl Prover<'_, '_, '_> {
         let stuck = model.map(|model| {
             let of = step.faults.iter().map(|(words, node)| (*node, words));
             let fault = stuck::which(&self.store, &model, of).copied().unwrap_or("a fault");
-            stuck::tell(&mut self.store, self.coupling, machines, &model, steps, &[], Some(fault.to_string()))
+            let scene = stuck::before(&self.store, machines[CONCRETE], &model, step);
+            let words = Some(fault.to_string());
+            let mut stuck = stuck::tell(&mut self.store, self.coupling, machines, &model, steps, &[], words);
+            // What the solver says it comes to goes before what else the machine may come to.
+            let is_said = |other: &Fault| class_in_words(FaultClass::of(other)) == fault;
+            stuck.faults[CONCRETE] = self.faults(CONCRETE, scene, is_said);
+            stuck
         });
         Err(self.gap(stuck))
     }
@@ -123,16 +133,31 @@ impl Prover<'_, '_, '_> {
         unmatched: Node,
         steps: &[Step],
         ends: &[End],
-        n: u32,
+        offered: &Offered,
     ) -> Result<(), Ended> {
+        let n = steps.len();
         let counted = if n == 1 { "one step".to_string() } else { format!("{n} steps") };
         let claim = format!("what the concrete machine does in {counted} the abstract machine answers");
         let Err(model) = self.oblige(&format!("step {n} answered"), &claim, unmatched) else { return Ok(()) };
         let stuck = model.map(|model| {
             let answers: Vec<Answer> = ends.last().map(|(.., answers)| answers.clone()).unwrap_or_default();
-            stuck::tell(&mut self.store, self.coupling, machines, &model, steps, &answers, None)
+            let mut stuck = stuck::tell(&mut self.store, self.coupling, machines, &model, steps, &answers, None);
+            if answers.iter().any(|answer| answer.m > 0) {
+                let scene = stuck::behind(&mut self.store, machines[ABSTRACT], &model, offered);
+                stuck.faults[ABSTRACT] = self.faults(ABSTRACT, scene, |_| false);
+            }
+            stuck
         });
         Err(self.gap(stuck))
+    }
+
+    /// The faults that a machine comes to in a state that a solver gave.
+    fn faults(&self, side: usize, scene: Option<Scene>, first: impl Fn(&Fault) -> bool) -> Vec<Fault> {
+        let extent = &self.options.extents[side];
+        let program = &self.coupling.programs[side];
+        let bounds = input_values(program, &extent.bounds, &extent.undefined);
+        let stage = Stage { program, limits: &extent.limits, start: &self.begun[side], bounds: &bounds };
+        scene.map_or_else(Vec::new, |scene| faults(stage, &scene, first))
     }
 
     /// Whether each segment has ended after so many steps. After the most it must have.

@@ -3,14 +3,18 @@
 //! In: the values that a solver gave to the variables, the steps of the diagram, the answers that were tried. Out: a [`Stuck`]. Nothing of
 //! it is relied on: the pair may be one that no runs reach.
 
+use std::collections::BTreeMap;
+
 use machine::{Location, Show, Value};
 use solve::session::Constant;
-use solve::shared::{Kind, Node, VariableId, value_at};
+use solve::shared::{Kind, Node, Terms, VariableId, value_at};
 use solve::symbol::{Codes, Shape, value_of};
 
+use super::answers::Offered;
 use super::ask::Model;
 use super::diagrams::{Answer, Step};
 use super::proof::{Attempt, Stuck};
+use super::replay::Scene;
 use super::symbolic::{Store, Symbolic, input_location};
 use crate::coupling::Coupling;
 use crate::why::Differs;
@@ -41,12 +45,12 @@ impl Values<'_> {
         for place in &machine.places {
             let node = state[at];
             let is_told = model.is_none_or(|model| {
-                let own = machine.state.get(at..at + 1 + usize::from(place.defined != solve::shared::Terms::TRUE));
+                let own = machine.state.get(at..at + 1 + usize::from(place.defined != Terms::TRUE));
                 own.is_some_and(|own| own.iter().any(|id| model.contains_key(id)))
             });
             at += 1;
             let mut defined = true;
-            if place.defined != solve::shared::Terms::TRUE {
+            if place.defined != Terms::TRUE {
                 defined = self.truth(state[at]);
                 at += 1;
             }
@@ -70,17 +74,7 @@ pub(super) fn tell(
     fault: Option<String>,
 ) -> Stuck {
     let here = machines.map(|machine| machine.here(&mut store.terms));
-    let terms = &store.terms;
-    let value = |id: VariableId| {
-        let variable = terms.variable_of(id);
-        let least = match variable.kind {
-            Kind::Boolean => Constant::Boolean(false),
-            Kind::Integer => Constant::Integer(variable.bounds.0.unwrap_or(0)),
-            Kind::Real => Constant::Real(0.0),
-        };
-        Some(model.get(&id).copied().unwrap_or(least))
-    };
-    let values = Values { codes: &store.codes, of: terms.values(&value) };
+    let values = values(store, model);
     let shown = |side: usize, values: Vec<(Location, Value)>| -> Differs {
         let program = &coupling.programs[side];
         let one = |(location, value): (Location, Value)| {
@@ -124,7 +118,58 @@ pub(super) fn tell(
     }
     tried.sort_by_key(|attempt| (attempt.parts.len(), attempt.m == 0));
     tried.truncate(TRIED);
-    Stuck { states, steps: made, fault, tried }
+    Stuck { states, steps: made, fault, tried, faults: Default::default() }
+}
+
+/// The values of all terms; the least ones of variables that the solver was not told of.
+fn values<'s>(store: &'s Store, model: &Model) -> Values<'s> {
+    let terms = &store.terms;
+    let value = |id: VariableId| Some(model.get(&id).copied().unwrap_or_else(|| least(terms, id)));
+    Values { codes: &store.codes, of: terms.values(&value) }
+}
+
+fn least(terms: &Terms, id: VariableId) -> Constant {
+    let variable = terms.variable_of(id);
+    match variable.kind {
+        Kind::Boolean => Constant::Boolean(false),
+        Kind::Integer => Constant::Integer(variable.bounds.0.unwrap_or(0)),
+        Kind::Real => Constant::Real(0.0),
+    }
+}
+
+/// The state that a concrete step begins in, with its inputs; none if it has values that no machine has.
+pub(super) fn before(store: &Store, machine: &Symbolic, model: &Model, step: &Step) -> Option<Scene> {
+    let values = values(store, model);
+    let state = values.state(machine, &step.from, None);
+    let mut inputs = BTreeMap::new();
+    for (input, own) in &step.inputs {
+        let Some((function, arguments, shape)) = input_location(input) else { continue };
+        let constant = model.get(own).copied().unwrap_or_else(|| least(&store.terms, *own));
+        let location = Location { function, arguments: arguments.to_vec() };
+        inputs.insert(location, vec![value_of(values.codes, shape, constant)?]);
+    }
+    (state.len() == machine.places.len()).then_some(Scene { state, inputs })
+}
+
+/// The abstract state that a diagram begins in, with the values that inputs have in it.
+pub(super) fn behind(store: &mut Store, machine: &Symbolic, model: &Model, offered: &Offered) -> Option<Scene> {
+    let here = machine.here(&mut store.terms);
+    let used = machine.used_inputs(&store.terms);
+    let values = values(store, model);
+    let state = values.state(machine, &here, None);
+    let mut inputs = BTreeMap::new();
+    for input in used {
+        let (Some((function, arguments, shape)), Some(id)) = (input_location(&input), store.variable(input.variable))
+        else {
+            continue;
+        };
+        // What is not offered the machine takes as it likes.
+        let Some(all) = offered.get(&id) else { continue };
+        let valid = all.iter().filter(|(_, valid)| values.truth(*valid));
+        let all: Option<Vec<Value>> = valid.map(|(value, _)| values.value(shape, *value)).collect();
+        inputs.insert(Location { function, arguments: arguments.to_vec() }, all?);
+    }
+    (state.len() == machine.places.len()).then_some(Scene { state, inputs })
 }
 
 /// The first fault or stray that holds.

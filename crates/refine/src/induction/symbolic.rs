@@ -9,7 +9,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use explore::{Given, Told};
-use machine::{Bounds, Limits, Location, Machine, Value};
+use machine::{Bounds, FaultClass, Limits, Location, Machine, Value};
 use program::{Expression, FunctionId, Program, PropertyKind};
 use rustc_hash::FxHashMap;
 use solve::Outside;
@@ -318,11 +318,10 @@ fn encode(
         Ok(invariants) => invariants,
         Err((index, outside)) => return Ok(Err(Again::Untold(index, outside))),
     };
-    let words =
-        ["an inconsistent update", "an update outside its domain", "a guard or an operation that is not defined"];
+    let classes = [FaultClass::Inconsistent, FaultClass::OutOfDomain, FaultClass::Undefined];
     let mut faults = Vec::new();
-    for (class, words) in words.into_iter().enumerate() {
-        faults.push((words, encoder.terms.and([course.faults[class], counts])));
+    for (class, fault) in classes.into_iter().zip(course.faults) {
+        faults.push((class_in_words(class), encoder.terms.and([fault, counts])));
     }
     let ill = encoder.terms.or(ill);
     faults.push(("a condition on the step that cannot be evaluated", encoder.terms.and([ill, counts])));
@@ -393,6 +392,15 @@ fn encode(
         step_reads_stray,
         places: places.into_iter().filter(|place| place.kept).collect(),
     }))
+}
+
+/// The faults of a class in words.
+pub(super) fn class_in_words(class: FaultClass) -> &'static str {
+    match class {
+        FaultClass::Inconsistent => "an inconsistent update",
+        FaultClass::OutOfDomain => "an update outside its domain",
+        FaultClass::Undefined => "a guard or an operation that is not defined",
+    }
 }
 
 /// Reads locations; the condition under which that may do what is not encoded.
