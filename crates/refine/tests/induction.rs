@@ -371,6 +371,49 @@ fn solvers_that_disagree_or_do_not_know_prove_nothing() {
     assert!(matches!(check(["unsat", "unsat"]), Some(Gap::Silent(1))));
 }
 
+/// A solver that says of each formula what its script hopes for.
+#[derive(Clone)]
+struct Obliging(std::rc::Rc<std::cell::Cell<u32>>);
+
+impl Solvers for Obliging {
+    fn name(&self) -> Result<String, String> {
+        Ok("obliging".to_string())
+    }
+
+    fn start(&mut self) -> Result<Box<dyn solve::session::Session>, solve::session::Silence> {
+        Ok(Box::new(self.clone()))
+    }
+}
+
+impl solve::session::Session for Obliging {
+    fn ask(&mut self, commands: &str, _: u32, _: &mut dyn FnMut() -> bool) -> Result<String, solve::session::Silence> {
+        self.0.set(self.0.get() + 1);
+        let hoped = commands.lines().find_map(|line| line.strip_prefix("; accepted if the answer is "));
+        Ok(format!("{}\n", hoped.unwrap_or("unsat")))
+    }
+}
+
+/// The search before a proof stops at a state with very many steps, whichever state that is, and the proof begins.
+#[test]
+fn a_state_with_very_many_steps_does_not_keep_a_proof_from_beginning() {
+    let with = |rule: &str| {
+        let names = ["a", "b", "c", "d", "e"];
+        let inputs: Vec<String> = names.iter().map(|name| format!("monitored {name}: N")).collect();
+        let signature = format!("domain N subsetof Integer {} controlled n: N controlled m: Integer", inputs.join(" "));
+        let rule = format!("domain N = {{0:99}} main rule r_Main = {rule}");
+        machine(&signature, &rule, "function n = 0 function m = 0")
+    };
+    let all = "n := (a + b + c + d + e) mod 100";
+    for rule in [all.to_string(), format!("if m < 3 then m := m + 1 else {all} endif")] {
+        let (one, asked) = (with(&rule), std::rc::Rc::default());
+        let by = vec![Obliging(std::rc::Rc::clone(&asked)); 2];
+        let report = proved_by(by, &coupled(&one, &one, "same n, m;"), u64::MAX);
+        assert!(report.progress.steps.iter().all(|steps| *steps <= 20_000), "{:?}", report.progress);
+        let proof = report.proof.expect("a proof");
+        assert!(asked.get() > 0 && proof.obligations.iter().any(|one| one.name == "step 1 answered"), "{proof:#?}");
+    }
+}
+
 #[test]
 fn what_is_outside_is_named() {
     let one = peak("peak := max(peak, reading)");

@@ -106,3 +106,22 @@ fn one_solver_proves_nothing_and_none_is_asked_for() {
         assert!(text.contains(&format!("cpp/install.sh {other}")), "{text}");
     }
 }
+
+/// `--time` ends all questions together, not each of them. The solvers here are there and never answer.
+#[test]
+fn the_time_ends_a_proof_by_solvers_that_do_not_answer() {
+    use std::os::unix::fs::PermissionsExt;
+    let silent = tempfile::tempdir().expect("a temporary folder");
+    for name in ["z3", "cvc5"] {
+        let path = silent.path().join(name);
+        let text =
+            format!("#!/bin/sh\nif [ \"$1\" = --version ]; then echo {name} 1.2.3; else exec /bin/sleep 1000; fi\n");
+        std::fs::write(&path, text).expect("it is written");
+        std::fs::set_permissions(&path, std::fs::Permissions::from_mode(0o755)).expect("it can be run");
+    }
+    let (code, text) = said("Filter.refine", &["--time", "1"], Some(silent.path()));
+    assert_eq!(code, Some(3), "{text}");
+    assert!(text.contains("not known: the time was up"), "{text}");
+    // Nobody says that a solver has had its time for a question.
+    assert!(!text.contains("no answer in time") && !text.contains("not all solvers decide"), "{text}");
+}
