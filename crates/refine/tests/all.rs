@@ -9,3 +9,4 @@ mod naive;
 mod preserved;
 mod small;
 mod spec;
+mod stuck;

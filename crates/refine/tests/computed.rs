@@ -3,9 +3,11 @@
 use std::sync::Arc;
 
 use program::Program;
-use refine::{CONCRETE, Coupling, Ended, Verdict};
+use refine::{CONCRETE, Coupling, Ended, Gap, Verdict};
 use syntax::SourceFile;
 
+use crate::enumerated::Enumerated;
+use crate::induction::{coupled, outside, proved_by, refines, refines_by, stuck};
 use crate::small::{lamp, machine, refuted, report};
 
 const BUTTON: &str = "enum domain Button = {UP | DOWN | NONE} monitored button: Button controlled on: Boolean";
@@ -176,4 +178,81 @@ fn an_input_is_a_term_of_its_domain_over_the_concrete_machine() {
     check(free, "abstract.pressed", "no input `pressed` left");
     check("same on; couple concrete.button = UP;", "concrete.button = UP", "is an input");
     check("same on; segment concrete.button = UP; free abstract.pressed;", "concrete.button = UP", "is an input");
+}
+
+/// Inputs of infinite domains, from which that of the abstract machine is computed.
+#[test]
+fn an_input_may_be_computed_from_inputs() {
+    let one = machine(
+        "monitored warm: Boolean controlled times: Integer",
+        "main rule r_Main = if warm and times < 1000000000 then times := times + 1 endif",
+        "function times = 0",
+    );
+    let other = |guard: &str| {
+        machine(
+            "monitored inside: Integer monitored outside: Integer controlled offset: Integer controlled times: Integer",
+            &format!("main rule r_Main = if {guard} and times < 1000000000 then times := times + 1 endif"),
+            "function times = 0 function offset = 3",
+        )
+    };
+    let coupling = "same times; couple concrete.offset = 3;
+        input abstract.warm = (concrete.inside > 20 and concrete.outside > 20 - concrete.offset);";
+    refines_by(&one, &other("inside >= 21 and outside >= 18"), coupling, &[(1, 1)]);
+    stuck(&one, &other("inside > 21 and outside > 17"), coupling, "step 1 answered");
+    stuck(&one, &other("inside > 20"), coupling, "step 1 answered");
+    // Any value is an answer to all of them.
+    for guard in ["inside > 21 and outside > 17", "inside > 20"] {
+        refines(&one, &other(guard), "same times; free abstract.warm;");
+    }
+    let few = machine(FEW, "domain Few = {0, 2, 5} main rule r_Main = last := step", "function last = 0");
+    let all = machine(
+        "monitored raw: Integer -> Boolean controlled last: Integer",
+        "main rule r_Main = last := if raw(3) then 2 else 0 endif",
+        "function last = 0",
+    );
+    let over_all = "same last; input abstract.step = (if concrete.raw(3) then 2 else 0 endif);";
+    outside(&few, &all, over_all, "over all of Integer");
+}
+
+const FEW: &str = "domain Few subsetof Integer monitored step: Few controlled last: Few";
+
+/// What is computed is a value that the abstract machine's input may have, or none.
+#[test]
+fn a_computed_input_has_the_value_that_is_computed() {
+    let few = machine(FEW, "domain Few = {0, 2, 5} main rule r_Main = last := step", "function last = 0");
+    let raw = |rule: &str| {
+        let signature =
+            "domain Few subsetof Integer domain Raw subsetof Integer monitored raw: Raw controlled last: Few";
+        let domains = "domain Few = {0, 2, 5} domain Raw = {0:12}";
+        machine(signature, &format!("{domains} main rule r_Main = last := {rule}"), "function last = 0")
+    };
+    let at = |rule: &str, term: &str| {
+        let text = format!("same last; input abstract.step = {term};");
+        let report = proved_by(vec![Enumerated; 2], &coupled(&few, &raw(rule), &text), 0);
+        let proof = report.proof.expect("a proof");
+        match (report.verdict, proof.gap) {
+            (Verdict::Refines, None) => "refines".to_string(),
+            (Verdict::Unknown(_), Some(Gap::Stuck(index, _))) => proof.obligations[index].name.clone(),
+            other => panic!("{other:?}"),
+        }
+    };
+    let level = "if raw > 9 then 5 elseif raw > 3 then 2 else 0 endif";
+    let same = "(if concrete.raw > 9 then 5 elseif concrete.raw > 3 then 2 else 0 endif)";
+    assert_eq!(at(level, same), "refines");
+    assert_eq!(at("if raw > 8 then 5 elseif raw > 3 then 2 else 0 endif", same), "step 1 answered");
+    assert_eq!(at("0", same), "step 1 answered");
+    // 1 is none of the values: no step of the abstract machine has it.
+    assert_eq!(at("if raw = 4 then 5 else 0 endif", "(if concrete.raw = 4 then 5 else 1 endif)"), "step 1 answered");
+    // Nor has it one where the term is not defined.
+    assert_eq!(at("0", "0 * (6 mod concrete.raw)"), "step 1 answered");
+    assert_eq!(
+        at("if raw = 4 then 2 else 0 endif", "(if concrete.raw = 4 then 2 else 0 * (6 mod (concrete.raw + 1)) endif)"),
+        "refines"
+    );
+    // The state before the step is the one that the term looks at.
+    assert_eq!(
+        at("if raw = last then 5 else 2 endif", "(if concrete.raw = concrete.last then 5 else 2 endif)"),
+        "refines"
+    );
+    assert_eq!(at("if raw = last then 5 else 2 endif", "(if concrete.raw = 0 then 5 else 2 endif)"), "step 1 answered");
 }

@@ -5,7 +5,6 @@
 
 use std::sync::Arc;
 
-use machine::{Fault, FaultKind, Value};
 use program::Program;
 use refine::{Coupling, Gap, Options, Provers, Report, Said, Vacuous, Verdict, prove};
 use solve::session::Solvers;
@@ -16,62 +15,7 @@ use testkit::{Page, Random};
 
 use crate::enumerated::Enumerated;
 use crate::naive::{changed, machine_of, rule};
-use crate::small::{example, machine, report, text_of};
-
-/// The faults that a failing obligation tells, by side, and the name of the obligation.
-fn faults(one: &Arc<Program>, other: &Arc<Program>, text: &str) -> (String, [Vec<Fault>; 2]) {
-    let report = proved_by(vec![Enumerated; 2], &coupled(one, other, text), 0);
-    let proof = report.proof.expect("a proof");
-    let Some(Gap::Stuck(index, stuck)) = proof.gap else { panic!("{:?} {:#?}", report.verdict, proof.gap) };
-    (proof.obligations[index].name.clone(), stuck.faults)
-}
-
-/// A step that cannot be made is made again by the machine: the clash and its places are told.
-#[test]
-fn why_a_step_cannot_be_made_is_told() {
-    const SMALL: &str =
-        "domain N subsetof Integer monitored go: Boolean monitored by: N controlled n: N controlled m: N";
-    const BEGUN: &str = "function n = 0 function m = 0";
-    let domain_and = |rule: &str| format!("domain N = {{0:3}} main rule r_Main = {rule}");
-    let small = |rule: &str| machine(SMALL, &domain_and(rule), BEGUN);
-    let one = small("n := (n + 1) mod 4");
-    let check = |rule: &str, is_it: &dyn Fn(&FaultKind) -> bool, at: &str| {
-        let other = small(rule);
-        let (name, [none, found]) = faults(&one, &other, "same n; allow waiting;");
-        assert_eq!((&*name, none.len()), ("step 1 made", 0), "{rule}");
-        assert!(!found.is_empty() && found.iter().all(|fault| is_it(&fault.kind)), "{rule}: {found:?}");
-        // The text of the machine is that of `machine`, so the place tells the rule.
-        let span = match &found[0].kind {
-            FaultKind::InconsistentUpdate { second, .. } => second.span,
-            _ => found[0].span,
-        };
-        let text = text_of(SMALL, &domain_and(rule), BEGUN);
-        assert_eq!(&text[span.range()], at, "{rule}");
-    };
-    let clash = |kind: &FaultKind| matches!(kind, FaultKind::InconsistentUpdate { first, second, .. } if first.span != second.span);
-    check("par n := (n + 1) mod 4 m := 1 if go and m = 2 then m := 3 endif endpar", &clash, "m := 3");
-    check(
-        "par n := (n + 1) mod 4 choose $x in N with $x != m do m := $x if by = 2 then m := 3 endif endpar",
-        &clash,
-        "m := 3",
-    );
-    check("par n := n m := m + by endpar", &|kind| matches!(kind, FaultKind::OutOfDomain { .. }), "m := m + by");
-    check("m := 3 mod by", &|kind| matches!(kind, FaultKind::DivisionByZero), "3 mod by");
-    // The abstract machine has one step that clashes, and the value of its input is the one that the term has.
-    let wrong = small("par n := by if by = 2 then n := 3 endif endpar");
-    let right = small("n := by");
-    let (name, [found, none]) = faults(&wrong, &right, "same n; input abstract.by = concrete.by;");
-    assert_eq!((&*name, none.len()), ("step 1 answered", 0));
-    let [fault] = &found[..] else { panic!("{found:?}") };
-    let FaultKind::InconsistentUpdate { first, second, .. } = &fault.kind else { panic!("{fault:?}") };
-    assert_eq!([&first.value, &second.value], [&Value::Integer(2), &Value::Integer(3)]);
-    let term = "same n; input abstract.by = (if concrete.go then 2 else concrete.by endif);";
-    let other = small("n := if go then 2 else by endif");
-    assert_eq!(faults(&wrong, &other, term).1[refine::ABSTRACT].len(), 1);
-    // Where its step can be made, and does not correspond, there is none.
-    let (name, found) = faults(&small("n := 3 - by"), &right, "same n;");
-    assert_eq!((&*name, found), ("step 1 answered", Default::default()));
-}
+use crate::small::{example, machine, report};
 
 /// The two solvers, if both are there.
 pub fn both() -> Option<Vec<Installed>> {
@@ -108,7 +52,7 @@ pub fn refines(one: &Arc<Program>, other: &Arc<Program>, coupling: &str) -> Opti
 
 /// The same, and that these are its diagrams.
 #[track_caller]
-fn refines_by(one: &Arc<Program>, other: &Arc<Program>, coupling: &str, diagrams: &[(u32, u32)]) {
+pub fn refines_by(one: &Arc<Program>, other: &Arc<Program>, coupling: &str, diagrams: &[(u32, u32)]) {
     if let Some(found) = refines(one, other, coupling) {
         assert_eq!(found, diagrams);
     }
@@ -124,7 +68,7 @@ pub fn stuck(one: &Arc<Program>, other: &Arc<Program>, coupling: &str, at: &str)
 }
 
 #[track_caller]
-fn outside(one: &Arc<Program>, other: &Arc<Program>, coupling: &str, says: &str) {
+pub fn outside(one: &Arc<Program>, other: &Arc<Program>, coupling: &str, says: &str) {
     let Some(report) = proved(one, other, coupling) else { return };
     let proof = report.proof.expect("a proof");
     let Some(Gap::Outside(_, outside)) = &proof.gap else { panic!("{:?} {:#?}", report.verdict, proof.gap) };
@@ -494,83 +438,6 @@ fn agree(cases: std::ops::Range<u64>, proves: Proves<'_>) {
     }
     let all = cases.count();
     assert!(counts[0] * 8 > all && counts[2] * 8 > all, "{counts:?}");
-}
-
-/// Inputs of infinite domains, from which that of the abstract machine is computed.
-#[test]
-fn an_input_may_be_computed_from_inputs() {
-    let one = machine(
-        "monitored warm: Boolean controlled times: Integer",
-        "main rule r_Main = if warm and times < 1000000000 then times := times + 1 endif",
-        "function times = 0",
-    );
-    let other = |guard: &str| {
-        machine(
-            "monitored inside: Integer monitored outside: Integer controlled offset: Integer controlled times: Integer",
-            &format!("main rule r_Main = if {guard} and times < 1000000000 then times := times + 1 endif"),
-            "function times = 0 function offset = 3",
-        )
-    };
-    let coupling = "same times; couple concrete.offset = 3;
-        input abstract.warm = (concrete.inside > 20 and concrete.outside > 20 - concrete.offset);";
-    refines_by(&one, &other("inside >= 21 and outside >= 18"), coupling, &[(1, 1)]);
-    stuck(&one, &other("inside > 21 and outside > 17"), coupling, "step 1 answered");
-    stuck(&one, &other("inside > 20"), coupling, "step 1 answered");
-    // Any value is an answer to all of them.
-    for guard in ["inside > 21 and outside > 17", "inside > 20"] {
-        refines(&one, &other(guard), "same times; free abstract.warm;");
-    }
-    let few = machine(FEW, "domain Few = {0, 2, 5} main rule r_Main = last := step", "function last = 0");
-    let all = machine(
-        "monitored raw: Integer -> Boolean controlled last: Integer",
-        "main rule r_Main = last := if raw(3) then 2 else 0 endif",
-        "function last = 0",
-    );
-    let over_all = "same last; input abstract.step = (if concrete.raw(3) then 2 else 0 endif);";
-    outside(&few, &all, over_all, "over all of Integer");
-}
-
-const FEW: &str = "domain Few subsetof Integer monitored step: Few controlled last: Few";
-
-/// What is computed is a value that the abstract machine's input may have, or none.
-#[test]
-fn a_computed_input_has_the_value_that_is_computed() {
-    let few = machine(FEW, "domain Few = {0, 2, 5} main rule r_Main = last := step", "function last = 0");
-    let raw = |rule: &str| {
-        let signature =
-            "domain Few subsetof Integer domain Raw subsetof Integer monitored raw: Raw controlled last: Few";
-        let domains = "domain Few = {0, 2, 5} domain Raw = {0:12}";
-        machine(signature, &format!("{domains} main rule r_Main = last := {rule}"), "function last = 0")
-    };
-    let at = |rule: &str, term: &str| {
-        let text = format!("same last; input abstract.step = {term};");
-        let report = proved_by(vec![Enumerated; 2], &coupled(&few, &raw(rule), &text), 0);
-        let proof = report.proof.expect("a proof");
-        match (report.verdict, proof.gap) {
-            (Verdict::Refines, None) => "refines".to_string(),
-            (Verdict::Unknown(_), Some(Gap::Stuck(index, _))) => proof.obligations[index].name.clone(),
-            other => panic!("{other:?}"),
-        }
-    };
-    let level = "if raw > 9 then 5 elseif raw > 3 then 2 else 0 endif";
-    let same = "(if concrete.raw > 9 then 5 elseif concrete.raw > 3 then 2 else 0 endif)";
-    assert_eq!(at(level, same), "refines");
-    assert_eq!(at("if raw > 8 then 5 elseif raw > 3 then 2 else 0 endif", same), "step 1 answered");
-    assert_eq!(at("0", same), "step 1 answered");
-    // 1 is none of the values: no step of the abstract machine has it.
-    assert_eq!(at("if raw = 4 then 5 else 0 endif", "(if concrete.raw = 4 then 5 else 1 endif)"), "step 1 answered");
-    // Nor has it one where the term is not defined.
-    assert_eq!(at("0", "0 * (6 mod concrete.raw)"), "step 1 answered");
-    assert_eq!(
-        at("if raw = 4 then 2 else 0 endif", "(if concrete.raw = 4 then 2 else 0 * (6 mod (concrete.raw + 1)) endif)"),
-        "refines"
-    );
-    // The state before the step is the one that the term looks at.
-    assert_eq!(
-        at("if raw = last then 5 else 2 endif", "(if concrete.raw = concrete.last then 5 else 2 endif)"),
-        "refines"
-    );
-    assert_eq!(at("if raw = last then 5 else 2 endif", "(if concrete.raw = 0 then 5 else 2 endif)"), "step 1 answered");
 }
 
 /// Each coupling of the page that is proved by induction is one that the search proves.
