@@ -358,28 +358,10 @@ impl<'a> Walk<'a> {
                 condition.iter().for_each(|condition| _ = self.term(*condition));
                 Certain::DEFINED
             }
-            Term::If { branches, otherwise } => {
-                let pairs = program.term_list(*branches).chunks_exact(2);
-                let mut values: Vec<Certain> = pairs
-                    .map(|pair| {
-                        self.term(pair[0]);
-                        self.term(pair[1])
-                    })
-                    .collect();
-                values.push(otherwise.map_or(Certain::UNDEF, |otherwise| self.term(otherwise)));
-                any_of(&values)
-            }
-            Term::Switch { subject, cases, otherwise } => {
+            Term::If { branches: pairs, otherwise } => self.one_of(*pairs, *otherwise),
+            Term::Switch { subject, cases: pairs, otherwise } => {
                 self.term(*subject);
-                let pairs = program.term_list(*cases).chunks_exact(2);
-                let mut values: Vec<Certain> = pairs
-                    .map(|pair| {
-                        self.term(pair[0]);
-                        self.term(pair[1])
-                    })
-                    .collect();
-                values.push(otherwise.map_or(Certain::UNDEF, |otherwise| self.term(otherwise)));
-                any_of(&values)
+                self.one_of(*pairs, *otherwise)
             }
             Term::Let { slot, value, body } => {
                 let value = self.term(*value);
@@ -393,6 +375,13 @@ impl<'a> Walk<'a> {
             }
             Term::Unbound | Term::Missing(_) => Certain::NOTHING,
         }
+    }
+
+    /// The value of one of several branches, each behind its guard or its case; without another one it may be undef.
+    fn one_of(&mut self, pairs: TermList, otherwise: Option<TermId>) -> Certain {
+        let values: Vec<Certain> = self.terms(pairs).into_iter().skip(1).step_by(2).collect();
+        let otherwise = otherwise.map_or(Certain::UNDEF, |otherwise| self.term(otherwise));
+        values.into_iter().fold(otherwise, Certain::or)
     }
 
     fn read(&mut self, function: FunctionId, arguments: TermList) -> Certain {
@@ -505,10 +494,6 @@ impl<'a> Walk<'a> {
             Runs::Nothing | Runs::Agent => {}
         }
     }
-}
-
-fn any_of(values: &[Certain]) -> Certain {
-    values.iter().copied().reduce(Certain::or).unwrap_or(Certain::NOTHING)
 }
 
 fn constant(literal: &Literal) -> Certain {

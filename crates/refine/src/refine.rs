@@ -1,8 +1,8 @@
 //! The whole question: explores the pairs, decides the game, reports.
 //!
 //! In: a [`Coupling`] and [`Options`]. Out: a [`Report`]. The search goes breadth-first; a limit ends it, and then only a refutation
-//! that needs nothing of what was not looked at is told. So it is where bounds leave out values of inputs. INVARIANT: *refines* is said only if every pair that the answers use was looked
-//! at; *does not refine* only if the concrete machine wins whatever was not looked at.
+//! that needs nothing of what was not looked at is told. So it is where bounds leave out values of inputs. INVARIANT: *refines* is said
+//! only if every pair that the answers use was looked at; *does not refine* only if the concrete machine wins whatever was not looked at.
 
 use explore::{Unbounded, Widening};
 use machine::{Cause, Fault};

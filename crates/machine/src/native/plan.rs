@@ -89,6 +89,7 @@ impl Plan {
         let constants = Arc::new(Items::new(core.constants.clone()));
         let (facts, constant) = (Facts::of(program, core), program.constant_domains());
         let certainty = Grounds { program, facts: &facts, constant: &constant }.certainty();
+        let visits = facts.late || program.terms.iter().any(reads_before);
         Plan {
             main,
             helpers,
@@ -106,7 +107,7 @@ impl Plan {
             pinned: vec![constants],
             ran: Box::default(),
             gathers: program.terms.iter().any(may_gather),
-            visits: core.origin.is_some() || program.terms.iter().any(reads_before),
+            visits,
         }
     }
 
