@@ -49,6 +49,9 @@ pub fn counterexample_scenario(program: &Program, trace: &Trace, subject: Subjec
             turn + 1
         );
     }
+    if trace.ends {
+        text.push_str("\n// no step satisfies the assumptions: the run ends here\n");
+    }
     if subject == Subject::NoDeadlock {
         rest(&mut text, program, trace);
     }

@@ -2,8 +2,8 @@
 //!
 //! In: a run, and what is violated at its end. Out: whether a machine without exploration makes the same steps from the
 //! same inputs and choices, and ends the same way. This checks the search: if the results differ, the search is at
-//! fault, and nothing is known. LIMIT: that no step changes the last state, and that an infinite run violates a
-//! formula, is not checked again; the steps that lead there are.
+//! fault, and nothing is known. LIMIT: that no step changes the last state, or satisfies the assumptions there, and that an
+//! infinite run violates a formula, is not checked again; the steps that lead there are.
 
 use std::collections::VecDeque;
 use std::sync::Arc;

@@ -155,8 +155,8 @@ fn of_runs(
                 Outcome::Unknown(vec![Reason::Odd])
             }
             OfRuns::Holds if reasons.is_empty() => Outcome::Holds,
-            // Untried inputs may add what one tree of runs lacks, but cannot undo what a single run does.
-            OfRuns::Violated(trace) if !trace.branch || reasons.is_empty() => Outcome::Violated(trace),
+            // Untried inputs may add what one tree of runs lacks, or let an ended run go on, but cannot undo what a single run does.
+            OfRuns::Violated(trace) if !(trace.branch || trace.ends) || reasons.is_empty() => Outcome::Violated(trace),
             OfRuns::Holds | OfRuns::Violated(_) => Outcome::Unknown(reasons.clone()),
             OfRuns::Unknown(why) => {
                 unknown.insert(index, why);

@@ -21,6 +21,8 @@ pub struct Trace {
     pub steps: Vec<Told>,
     /// The step to which the run returns after the last one, forever; `None` for a run that ends.
     pub turn: Option<usize>,
+    /// Whether the run ends in its last state because no step from there satisfies the assumptions. Formulas see it stay there.
+    pub ends: bool,
     /// Whether a tree of runs violates the property, of which this is only one branch.
     pub branch: bool,
 }
@@ -48,7 +50,7 @@ pub(crate) fn picks_between(explorer: &mut Explorer, from: &[u64], to: &[u64]) -
 pub(crate) fn tell_way(explorer: &mut Explorer, chain: &[Box<[u64]>]) -> Trace {
     let start = explorer.initial().iter().find(|(state, _)| **state == *chain[0]).map(|(_, start)| start);
     let start = start.map(|start| explorer.told_of_start(start)).unwrap_or_default();
-    let mut trace = Trace { start, values: explorer.values(&chain[0]), steps: Vec::new(), turn: None, branch: false };
+    let mut trace = Trace { start, values: explorer.values(&chain[0]), ..Trace::default() };
     for pair in chain.windows(2) {
         let picks = picks_between(explorer, &pair[0], &pair[1]);
         trace.steps.push(explorer.tell(&pair[0], &picks));

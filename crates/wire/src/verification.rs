@@ -33,6 +33,9 @@ pub struct Verdict {
     /// The step from which the trace repeats forever.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub again_from: Option<usize>,
+    /// Whether the trace ends because no step satisfies the assumptions.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub ends: bool,
     /// That run as a scenario, to be written beside the model; none where no scenario makes it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub scenario: Option<String>,
@@ -62,6 +65,7 @@ impl Verdict {
             verdict: "violated",
             trace: Some(RunStep::all(words, trace)),
             again_from: trace.turn.map(|turn| turn + 1),
+            ends: trace.ends,
             ..Verdict::holds(words, subject)
         }
     }
@@ -82,6 +86,7 @@ impl Verdict {
             reasons: Vec::new(),
             trace: None,
             again_from: None,
+            ends: false,
             scenario: None,
         }
     }

@@ -116,6 +116,9 @@ impl Verdicts<'_> {
         if let Some(turn) = trace.turn {
             writeln!(out, "  and again from step {}, for ever", turn + 1)?;
         }
+        if trace.ends {
+            writeln!(out, "  no step satisfies the assumptions: the run ends here")?;
+        }
         Ok(())
     }
 

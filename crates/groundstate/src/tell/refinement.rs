@@ -54,7 +54,7 @@ pub enum Standing {
 
 /// A run of a machine as other commands know it.
 pub fn trace_of(run: &Run) -> Trace {
-    Trace { start: run.start.clone(), values: run.values.clone(), steps: run.steps.clone(), turn: None, branch: false }
+    Trace { start: run.start.clone(), values: run.values.clone(), steps: run.steps.clone(), ..Trace::default() }
 }
 
 impl Refinements<'_> {

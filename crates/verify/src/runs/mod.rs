@@ -324,20 +324,28 @@ fn propositions_of_ctl(formulas: &CtlFormulas, formula: FormulaId) -> Vec<u32> {
 }
 
 impl Explored {
-    /// A run in steps.
+    /// A run in steps. Where no step of a state satisfies the assumptions, it ends.
     fn trace(&mut self, run: &Run) -> Trace {
         let nodes = run.states(&self.graph);
         let first: Box<[u64]> = self.states.get(self.nodes[nodes[0] as usize].0).into();
         let start = self.explorer.initial().iter().find(|(state, _)| **state == *first).map(|(_, start)| start);
         let start = start.map(|start| self.explorer.told_of_start(start)).unwrap_or_default();
         let values = self.explorer.values(&first);
-        let ends = nodes.windows(2).zip(&run.edges);
-        let steps = ends.map(|(pair, edge)| self.step(pair[0], pair[1], *edge)).collect();
-        Trace { start, values, steps, turn: run.turn, branch: false }
+        let mut trace = Trace { start, values, turn: run.turn, ..Trace::default() };
+        for (pair, edge) in nodes.windows(2).zip(&run.edges) {
+            match self.step(pair[0], pair[1], *edge) {
+                Some(step) => trace.steps.push(step),
+                None => {
+                    (trace.turn, trace.ends) = (None, true);
+                    break;
+                }
+            }
+        }
+        trace
     }
 
-    /// The first alternative that an edge of the graph represents.
-    fn step(&mut self, from: u32, to: u32, edge: usize) -> Told {
+    /// The first alternative that an edge of the graph represents; none if the edge says that the run stays where it has no step.
+    fn step(&mut self, from: u32, to: u32, edge: usize) -> Option<Told> {
         let (state, letter) = self.nodes[from as usize];
         let target: Box<[u64]> = self.states.get(self.nodes[to as usize].0).into();
         let state: Box<[u64]> = self.states.get(state).into();
@@ -359,6 +367,6 @@ impl Explored {
             }
             ControlFlow::Continue(())
         });
-        picks.map(|picks| self.explorer.tell(&state, &picks)).unwrap_or_default()
+        picks.map(|picks| self.explorer.tell(&state, &picks))
     }
 }
