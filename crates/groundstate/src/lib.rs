@@ -21,6 +21,7 @@ pub mod mutation;
 mod overlay;
 mod owed;
 pub mod patterns;
+mod picked;
 mod proof_on_part;
 pub mod reporting;
 pub mod session;
@@ -29,6 +30,7 @@ mod test;
 pub mod test_generation;
 mod verified_system;
 mod verify_preserved;
+mod whole_run;
 pub mod workspace;
 
 use std::collections::BTreeMap;

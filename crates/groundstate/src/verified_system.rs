@@ -18,7 +18,9 @@ use syntax::{FileId, Parse, SourceFile, Sources, Stop};
 use verify::{Subject, Trace};
 
 use crate::build::Located;
+use crate::picked::Picked;
 use crate::simulate::read_value;
+use crate::whole_run::whole_run;
 use crate::{Loaded, has_errors, load, patterns};
 
 /// A system to verify.
@@ -39,6 +41,8 @@ pub struct VerifiedSystem {
     pub warnings: Located,
     /// The ground model of the same chart, without what elaborations compute; with data, with what machines decide.
     pub ground: Loaded,
+    /// That of the whole chart, if machines are left out.
+    whole: Option<Loaded>,
 }
 
 const VERIFICATION: &str = "verification/";
@@ -144,8 +148,15 @@ impl Verifiable {
         let general = if any == drawn { None } else { Some(load_as(name.clone(), any)?) };
         let loaded = load_as(name, drawn)?;
         let ground = load_as(format!("{folder}{}.asm", chart.name), ground)?;
+        let machines = |chart: &Chart| chart.system.as_ref().map_or(0, |system| system.computing.machines.len());
+        let whole = match chart::build(&chart, &known, None) {
+            Ok(built) if machines(&part) < machines(&chart) => {
+                Some(load_as(format!("{folder}{}.asm", chart.name), built.text)?)
+            }
+            _ => None,
+        };
         let data = chart::kept(&part);
-        Ok(Box::new(VerifiedSystem { chart, part, data, loaded, general, warnings, ground }))
+        Ok(Box::new(VerifiedSystem { chart, part, data, loaded, general, warnings, ground, whole }))
     }
 }
 
@@ -284,11 +295,17 @@ impl VerifiedSystem {
     ) -> Result<GroundRun, String> {
         let mut ground = self.ground.overlay();
         let formula = invariant(asked, subject).and_then(|text| ground.ask("invariant", text.as_str()).ok());
-        let mut given = Given { program: asked.0, inputs: &trace.start.inputs, asked: BTreeMap::new() };
+        let picked = |told: &explore::Told| Picked::of(asked.0, &told.choices);
+        let mut given = Given {
+            program: asked.0,
+            inputs: &trace.start.inputs,
+            picked: picked(&trace.start),
+            asked: BTreeMap::new(),
+        };
         let mut run = Events::start(&ground.program, limits, &mut given)?;
         let mut events = Vec::new();
         for (tick, step) in (0..).zip(&trace.steps) {
-            given.inputs = &step.inputs;
+            (given.inputs, given.picked) = (&step.inputs, picked(step));
             given.asked.clear();
             match (run.step(&mut given), &step.fault) {
                 (Ok(made), None) => {
@@ -382,6 +399,13 @@ impl VerifiedSystem {
         Ok(out)
     }
 
+    /// A counterexample as a run of the model that `chart build` writes, with its program; none if that would be the run of the verified
+    /// model, or if it was not made.
+    pub fn whole_run(&self, limits: &Limits, asked: &Program, trace: &Trace) -> Option<(&Program, Trace)> {
+        let whole = &self.whole.as_ref()?.program;
+        whole_run(whole, limits, asked, trace).map(|made| (&**whole, made))
+    }
+
     /// Whether a run of the ground model checks the property by itself.
     pub fn is_checked(&self, asked: &Program, subject: Subject) -> bool {
         let Subject::Property(index) = subject else { return false };
@@ -410,10 +434,11 @@ fn invariant((program, sources): (&Program, &Sources), subject: Subject) -> Opti
     (property.kind == PropertyKind::Invariant).then(words)
 }
 
-/// The inputs of a step, by their names: the programs of both models number their functions differently.
+/// The inputs and choices of a step, by their names: the programs of both models number their functions differently.
 struct Given<'a> {
     program: &'a Program,
     inputs: &'a [(Location, Value)],
+    picked: Picked,
     /// Those that were asked for, by their names.
     asked: BTreeMap<String, String>,
 }
@@ -434,7 +459,7 @@ impl Environment for Given<'_> {
     }
 
     fn choose(&mut self, program: &Program, choice: &Choice<'_>) -> Result<usize, String> {
-        Closed.choose(program, choice)
+        self.picked.take(program, choice).map_or_else(|| Closed.choose(program, choice), Ok)
     }
 
     fn time(&mut self, unit: TimeUnit) -> Result<i64, String> {

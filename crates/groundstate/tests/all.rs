@@ -9,6 +9,7 @@ mod decision;
 mod draw;
 mod invariants;
 mod jittered_systems;
+mod left_out_machines;
 mod jobs;
 mod labels;
 mod machines;

@@ -306,14 +306,14 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
         Some(path) => Some(Checkpoint::new(path, &fingerprint)?),
         None => None,
     };
+    let limits = shell.global.limits.uninterrupted();
     let mut teller = Teller::new(&program, &sources, false);
     if let Some(system) = &system {
-        let limits = shell.global.limits.uninterrupted();
-        teller.words.story = Some(system::story(system, limits, (&program, &sources)));
+        teller.words.story = Some(system::story(system, limits.clone(), (&program, &sources)));
     }
     if shell.json() {
         teller.scenario = match &system {
-            Some(system) => system::scripts(&arguments.model, system, (&program, &sources)),
+            Some(system) => system::scripts(&arguments.model, system, (&program, &sources), &limits),
             None => counterexample::scripts(&arguments.model, &program, loaded.model.properties.len()),
         };
     }
@@ -356,7 +356,7 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
         idle::tell(shell, arguments, &teller, &report, (options, agents))?;
     }
     match (&arguments.counterexample, &system) {
-        (Some(path), Some(system)) => system::write(shell, path, &arguments.model, system, &asked, &report)?,
+        (Some(path), Some(system)) => system::write(shell, path, &arguments.model, system, &asked, &limits, &report)?,
         (Some(path), None) => {
             let model = (arguments.model.as_path(), fingerprint.as_str());
             counterexample::write(shell, path, model, &asked, &report)?;

@@ -264,14 +264,17 @@ pub fn story<'a>(system: &'a VerifiedSystem, limits: Limits, asked: (&'a Program
     }))
 }
 
-/// The scenario of a counterexample; `model` is what it loads.
+/// The scenario of a counterexample; `model` is what it loads. It gives inputs to machines that were left out, too.
 fn script(
     (system, (program, sources)): (&VerifiedSystem, (&Program, &Sources)),
     (subject, trace): (Subject, &Trace),
+    limits: &Limits,
     name: &str,
     model: &str,
 ) -> String {
-    let text = groundstate::counterexample_scenario(program, trace, subject, &name.replace('-', "_"), model);
+    let whole = system.whole_run(limits, program, trace);
+    let run = whole.as_ref().map_or((program, trace), |(whole, made)| (*whole, made));
+    let text = groundstate::counterexample_scenario(run.0, run.1, subject, &name.replace('-', "_"), model);
     match system.scenario_property((program, sources), subject) {
         Some(property) if !system.is_checked(program, subject) => with_invariant(&text, &property),
         _ => text,
@@ -283,6 +286,7 @@ pub fn scripts<'a>(
     chart: &Path,
     system: &'a VerifiedSystem,
     (program, sources): (&'a Program, &'a Sources),
+    limits: &'a Limits,
 ) -> Option<Box<Scripts<'a>>> {
     let file = chart.file_name()?;
     let model = PathBuf::from(file).with_extension("asm").display().to_string();
@@ -290,7 +294,7 @@ pub fn scripts<'a>(
         let name = named(program, subject, &mut Vec::new());
         let about = (system, (program, sources));
         // That nothing moves any more is seen in no state of the ground model, whose clock goes on.
-        (subject != Subject::NoDeadlock).then(|| script(about, (subject, trace), &name, &model))
+        (subject != Subject::NoDeadlock).then(|| script(about, (subject, trace), limits, &name, &model))
     }))
 }
 
@@ -301,6 +305,7 @@ pub fn write(
     chart: &Path,
     system: &VerifiedSystem,
     asked: &Overlay,
+    limits: &Limits,
     report: &Report,
 ) -> Result<(), Failure> {
     let one = path.extension().is_some_and(|ending| ending == "avalla");
@@ -319,7 +324,7 @@ pub fn write(
         std::fs::create_dir_all(folder).map_err(|error| Failure::of_file("write", folder, error))?;
         // The model need not be there yet; the chart is.
         let loaded = PathBuf::from(relative(chart, folder)).with_extension("asm").display().to_string();
-        write_text(&file, &script(about, (verdict.subject, trace), &name, &loaded))?;
+        write_text(&file, &script(about, (verdict.subject, trace), limits, &name, &loaded))?;
         written.push(file);
         if one {
             break;
