@@ -31,7 +31,7 @@ pub use fault::IDS as FAULT_IDS;
 pub use format::format;
 pub use invariant::{assert_invariants, differ_in_layout_only};
 pub use kind::{AsmetaL, SyntaxKind};
-pub use limit::{MAX_CHAIN, MAX_FAULTS, MAX_NESTING, MAX_TEXT_BYTES};
+pub use limit::{MAX_CHAIN, MAX_COMPOSITES, MAX_FAULTS, MAX_NESTING, MAX_TEXT_BYTES};
 pub use source::{LineColumn, SourceFile, Sources};
 pub use span::{FileId, Span};
 pub use stop::Stop;

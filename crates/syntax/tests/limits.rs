@@ -1,7 +1,10 @@
 //! However deep or long a text is, parsing ends, stays within the stack of a test thread, keeps the text, and reports
 //! each limit once.
 
-use syntax::{FileId, MAX_CHAIN, MAX_FAULTS, MAX_NESTING, Parse, SyntaxNode, parse_asmetal, parse_avalla, parse_term};
+use syntax::{
+    FileId, MAX_CHAIN, MAX_COMPOSITES, MAX_FAULTS, MAX_NESTING, Parse, SyntaxNode, parse_asmetal, parse_avalla,
+    parse_term,
+};
 
 const FILE: FileId = FileId(0);
 
@@ -125,4 +128,22 @@ fn faults_are_limited() {
             }
         }
     }
+}
+
+#[test]
+fn composite_states_in_one_another() {
+    let deepest = |count: usize| {
+        let text = format!(
+            "chart C machine m {} state b {} state c endmachine",
+            "composite state a ".repeat(count),
+            "endstate ".repeat(count)
+        );
+        let parse = syntax::parse_chart(FILE, &text);
+        assert!(parse.syntax().text() == text.as_str(), "not lossless");
+        assert!(height(&parse.syntax()) < 2 * MAX_NESTING);
+        (reports(&parse, "nested-too-deeply"), parse.diagnostics.len())
+    };
+    assert_eq!(deepest(MAX_COMPOSITES), (0, 0));
+    assert_eq!(deepest(MAX_COMPOSITES + 1), (1, 1));
+    assert_eq!(deepest(100_000), (1, 1));
 }

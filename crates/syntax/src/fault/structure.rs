@@ -368,6 +368,14 @@ pub(crate) fn nested_too_deeply(found: Found<'_>) -> Diagnostic {
         .with_help("split it: define functions for parts of a term, rules for parts of a rule")
 }
 
+/// The limit of nesting for composite states.
+pub(crate) fn composites_too_deep(found: Found<'_>) -> Diagnostic {
+    use crate::limit::MAX_COMPOSITES;
+    Diagnostic::error("nested-too-deeply", found.span, "this composite state is nested too deeply")
+        .here(format!("at most {MAX_COMPOSITES} composite states in one another"))
+        .with_help("split the machine: give what is inside to a machine of its own")
+}
+
 /// `{1..5}`
 pub(crate) fn dots_in_range(found: Found<'_>, two: bool) -> Diagnostic {
     let span = Span { end: found.span.end + u32::from(two), ..found.span };

@@ -10,6 +10,7 @@ use super::chart_part::{
 use super::{function, list, system, term};
 use crate::SyntaxKind::{self, *};
 use crate::fault;
+use crate::limit::MAX_COMPOSITES;
 use crate::parser::Parser;
 
 /// A whole chart file.
@@ -150,6 +151,9 @@ fn declared(p: &mut Parser<'_>, node: SyntaxKind, word: SyntaxKind, link: fn(&mu
 
 /// `[initial] composite state NAME "text" … endstate`
 fn composite(p: &mut Parser<'_>, initial: bool) {
+    if p.awaiting(ENDSTATE_KW) >= MAX_COMPOSITES {
+        return too_deep(p);
+    }
     p.start(COMPOSITE_STATE);
     if initial {
         p.bump_opener_as(INITIAL_KW, ENDSTATE_KW);
@@ -162,6 +166,27 @@ fn composite(p: &mut Parser<'_>, initial: bool) {
         p.eat(STRING);
     }
     block(p, ENDSTATE_KW, item);
+    p.finish();
+}
+
+/// Skips a composite state up to its end.
+fn too_deep(p: &mut Parser<'_>) {
+    let found = p.found();
+    p.fault_once(fault::composites_too_deep(found));
+    p.start(ERROR);
+    let mut open = 0usize;
+    while !p.at(EOF) && !ends_block_around(p) && keyword(p, &[ENDMACHINE_KW, ENDPATTERN_KW]).is_none() {
+        let word = keyword(p, &[COMPOSITE_KW, ENDSTATE_KW]);
+        p.bump();
+        match word {
+            Some(COMPOSITE_KW) => open += 1,
+            Some(_) => open = open.saturating_sub(1),
+            None => continue,
+        }
+        if open == 0 {
+            break;
+        }
+    }
     p.finish();
 }
 

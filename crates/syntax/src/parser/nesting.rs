@@ -89,6 +89,11 @@ impl<'t> Parser<'t> {
         within.map(|open| open.found)
     }
 
+    /// How many enclosing constructs wait for this end.
+    pub(crate) fn awaiting(&self, end: SyntaxKind) -> usize {
+        self.open.iter().filter(|open| open.end == end).count()
+    }
+
     /// An enclosing construct waits for this end.
     pub(crate) fn is_awaited(&self, end: SyntaxKind) -> bool {
         self.open.iter().any(|open| open.end == end)
