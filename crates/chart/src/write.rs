@@ -32,7 +32,7 @@ fn one(out: &mut String, machine: &Machine) {
         machine.parameters.iter().map(|parameter| format!("{} in {}", parameter.variable, parameter.domain)).collect();
     let parameters = if parameters.is_empty() { String::new() } else { format!("({})", parameters.join(", ")) };
     let rule = machine.rule.as_ref().map(|link| format!(" {{{}}}", link.text)).unwrap_or_default();
-    let _ = writeln!(out, "\n{word} {}{parameters} {:?}{rule}", machine.name, machine.text);
+    let _ = writeln!(out, "\n{word} {}{parameters} {}{rule}", machine.name, quoted(&machine.text));
     match &machine.control {
         Some(Control::Linked(link)) => _ = writeln!(out, "control {{{}}}", link.text),
         Some(Control::Made { name, .. }) => _ = writeln!(out, "control {name}"),
@@ -62,6 +62,11 @@ fn shapes(out: &mut String, machine: &Machine, around: Option<ShapeId>) {
     }
 }
 
+/// A text as a string of a chart.
+pub(crate) fn quoted(text: &str) -> String {
+    format!("\"{}\"", text.replace('\\', "\\\\").replace('"', "\\\"").replace('\n', "\\n"))
+}
+
 fn declaration(machine: &Machine, id: ShapeId, shape: &Shape) -> String {
     let around = shape.inside.and_then(|around| machine.shape(around).composite());
     let (word, of) = match &shape.kind {
@@ -84,8 +89,7 @@ fn declaration(machine: &Machine, id: ShapeId, shape: &Shape) -> String {
         },
         None => String::new(),
     };
-    let text = shape.text.replace('\\', "\\\\").replace('"', "\\\"").replace('\n', "\\n");
-    format!("{word} {}{of} \"{text}\"{link}{refinement}", shape.name)
+    format!("{word} {}{of} {}{link}{refinement}", shape.name, quoted(&shape.text))
 }
 
 /// The arrows, each once, joined into paths.

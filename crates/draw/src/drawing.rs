@@ -9,7 +9,7 @@ use crate::picture::Picture;
 use crate::scene::{self, Scene};
 use crate::still::{self, DrawFault};
 use crate::style::{self, Theme};
-use crate::{components, svg, words};
+use crate::{components, font, svg, words};
 
 /// A machine or system that is drawn.
 #[derive(Debug, Clone, Copy)]
@@ -70,6 +70,14 @@ impl<'c> Drawing<'c> {
     /// As [`Drawing::picture`], and where the picture is too large for memory.
     pub fn png(&self, theme: Theme, scale: f32) -> Result<Vec<u8>, DrawFault> {
         still::png(&self.svg(theme)?, scale)
+    }
+
+    /// The letters that a PNG or a PDF leaves out: the faces of this crate do not have them.
+    ///
+    /// # Errors
+    /// As [`Drawing::picture`].
+    pub fn left_out(&self) -> Result<Vec<char>, LayoutFault> {
+        Ok(font::lacking(&self.svg(Theme::Light)?))
     }
 
     /// The drawing as a PDF of one page; [`Theme::Auto`] is light there. Its text can be searched.

@@ -1,7 +1,7 @@
 //! The faces that PNG and PDF are drawn with, and the widths of their letters.
 //!
 //! They are part of the program, so that a picture is the same on every machine. Letters that they do not have (of scripts
-//! other than Latin, Greek and Cyrillic) are drawn as empty boxes there; in SVG the reader's own fonts fill in.
+//! other than Latin, Greek and Cyrillic) are left out there; in SVG the reader's own fonts fill in.
 
 use std::sync::OnceLock;
 
@@ -26,8 +26,6 @@ pub enum Face {
 
 /// How wide a text is at a size.
 pub fn width(face: Face, text: &str, size: f64) -> f64 {
-    static FONTS: OnceLock<Vec<Font<'static>>> = OnceLock::new();
-    let parsed = || FILES.iter().take(2).map(|file| Font::parse(file, 0).expect("a file of this crate")).collect();
     let font = &FONTS.get_or_init(parsed)[if face == Face::Sans { 0 } else { 1 }];
     let advance = |letter: char| font.glyph_index(letter).and_then(|glyph| font.glyph_hor_advance(glyph));
     let em = font.units_per_em();
@@ -36,9 +34,31 @@ pub fn width(face: Face, text: &str, size: f64) -> f64 {
     units * size / f64::from(em)
 }
 
+/// The letters of a text that the faces do not have, each once.
+pub fn lacking(text: &str) -> Vec<char> {
+    let font = &FONTS.get_or_init(parsed)[0];
+    let mut letters: Vec<char> =
+        text.chars().filter(|letter| !letter.is_control() && font.glyph_index(*letter).is_none()).collect();
+    letters.sort_unstable();
+    letters.dedup();
+    letters
+}
+
+/// The faces that are measured.
+static FONTS: OnceLock<Vec<Font<'static>>> = OnceLock::new();
+
+fn parsed() -> Vec<Font<'static>> {
+    FILES.iter().take(2).map(|file| Font::parse(file, 0).expect("a file of this crate")).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn letters_that_are_not_there_are_told() {
+        assert_eq!(lacking("Grüße, привет, \u{4e2d}\u{6587}\u{4e2d}\n"), ['\u{4e2d}', '\u{6587}']);
+    }
 
     #[test]
     fn letters_are_as_wide_as_those_of_helvetica() {

@@ -19,6 +19,7 @@ use super::tree::{States, is, is_scxml, machines, place, text_of};
 use crate::export::{NAMESPACE, condition, script};
 use crate::fault::foreign as fault;
 use crate::read::spoken;
+use crate::write::quoted;
 
 /// Reads an SCXML document; `name` is the chart's name, `file` identifies the text in faults.
 pub fn scxml(file: FileId, text: &str, name: &str) -> Imported {
@@ -590,8 +591,4 @@ fn is_term(text: &str) -> bool {
 fn is_rule(text: &str) -> bool {
     let parse = syntax::parse_chart(FileId(0), &format!("chart C machine m action a {{{text}}} endmachine"));
     parse.diagnostics.is_empty()
-}
-
-fn quoted(text: &str) -> String {
-    format!("\"{}\"", text.replace('\\', "\\\\").replace('"', "\\\"").replace('\n', "\\n"))
 }

@@ -57,7 +57,9 @@ choice! {
 /// The string of a node without its quotes, with its escapes undone.
 pub(super) fn text_of(node: &crate::SyntaxNode) -> Option<String> {
     let token = token(node, STRING)?;
-    let inner = token.text().trim_matches('"');
+    let inner = token.text().strip_prefix('"')?;
+    // One that is not closed has no second quotation mark.
+    let inner = inner.strip_suffix('"').unwrap_or(inner);
     let mut text = String::new();
     let mut letters = inner.chars();
     while let Some(letter) = letters.next() {

@@ -1,5 +1,6 @@
 //! `groundstate chart draw FILE`: draws the machines and the system of a chart as SVG, PNG or PDF.
 
+use std::collections::BTreeSet;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
@@ -102,10 +103,18 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
         return Err(Failure::usage_with_help(format!("the chart has {} machines", machines.len()), help));
     }
     // All pictures are drawn before the first is written.
-    let mut pictures = Vec::new();
+    let (mut pictures, mut missing) = (Vec::new(), BTreeSet::new());
     for machine in machines {
-        let picture = drawn(machine, form, arguments).map_err(|fault| Failure::usage(fault.to_string()))?;
+        let failed = |fault: DrawFault| Failure::usage(fault.to_string());
+        let picture = drawn(machine, form, arguments).map_err(failed)?;
+        if form != Form::Svg {
+            missing.extend(machine.left_out().map_err(|fault| failed(fault.into()))?);
+        }
         pictures.push((machine.name(), picture));
+    }
+    if !missing.is_empty() {
+        let letters: String = missing.into_iter().collect();
+        shell.note(&format!("left out of the picture, since its faces lack them: {letters} (an SVG has them)"))?;
     }
     for (name, picture) in pictures {
         match (&arguments.output, folder) {
