@@ -13,6 +13,8 @@ const APART_MS = 250
 
 interface Lanes {
   steps: number
+  // After so many steps is the state that the first tick shows: 0 or 1.
+  first: number
   empty: boolean
   markup: string
   run: LaneRun
@@ -25,6 +27,7 @@ export class Timeline {
   private readonly root: ShadowRoot
   private explored: Explored | null = null
   private session = -1
+  private first = 1
   private asking = false
   // Of which moment the lanes are.
   private known = ''
@@ -83,6 +86,7 @@ export class Timeline {
     // Before the first drawing, so that it has a width.
     this.told('lanes')
     const drawing = drawingOf(lanes.run)
+    this.first = lanes.first
     if (this.explored) {
       this.renew(lanes.markup)
       this.explored.take(lanes.run, drawing)
@@ -92,10 +96,10 @@ export class Timeline {
       this.root.adoptedStyleSheets = [sheet]
       // The server escapes names and strings of the model, as in the page of a report.
       this.root.innerHTML = `<div class="live">${lanes.markup}</div>`
-      const picked = (tick: number): void => void this.studio.runner.goTo(Math.floor(tick) + 1)
+      const picked = (tick: number): void => void this.studio.runner.goTo(Math.floor(tick) + this.first)
       this.explored = explore(this.root, lanes.run, drawing, { moved: () => {}, picked })
     }
-    this.explored.place(step > 0 ? step - 1 : null)
+    this.explored.place(step >= lanes.first ? step - lanes.first : null)
     this.explored.mark()
   }
 

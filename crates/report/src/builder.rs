@@ -1,9 +1,9 @@
 //! From the values of terms, state by state, to a [`Report`].
 //!
 //! In: a [`Spec`], then in each state the terms whose text changed. Out: the report, to which the shell adds what it
-//! knows from elsewhere. A tick is a step: what the state after the t-th step shows (t from 0) went on in tick t, and
-//! what changed in it happened at the beginning of tick t. The work for a tick does not depend on the number of ticks
-//! seen. Memory grows only with the ticks shown, see [`ReportBuilder::show_ticks`].
+//! knows from elsewhere. A tick is a step. Where steps take time, what the state after step t + 1 shows went on in tick t, and
+//! what changed in it happened at the beginning of tick t. Where they are only counted, tick t shows the state after t steps, the initial
+//! state among them. The work for a tick does not depend on the number of ticks seen. Memory grows only with the ticks shown, see [`ReportBuilder::show_ticks`].
 
 mod buffer;
 mod chart;
@@ -34,6 +34,8 @@ pub struct ReportBuilder {
     tick: u64,
     shown: u64,
     begun: bool,
+    /// The first tick shows the initial state.
+    from_initial: bool,
     activities: Vec<Kind>,
     tasks: Vec<TaskWatch>,
     buffers: Vec<BufferWatch>,
@@ -67,8 +69,21 @@ impl ReportBuilder {
             (slots, Flow::new(flow.noun.clone(), hops))
         });
         let charts = spec.charts.iter().map(|chart| ChartWatch::new(chart, &mut readings)).collect();
-        let (tick, shown, begun) = (0, SHOWN_TICKS, false);
-        ReportBuilder { spec, readings, tick, shown, begun, activities, tasks, buffers, queues, series, flow, charts }
+        ReportBuilder {
+            from_initial: spec.counts_steps(),
+            spec,
+            readings,
+            tick: 0,
+            shown: SHOWN_TICKS,
+            begun: false,
+            activities,
+            tasks,
+            buffers,
+            queues,
+            series,
+            flow,
+            charts,
+        }
     }
 
     /// Lets the lanes show this many ticks of the run.
@@ -93,6 +108,13 @@ impl ReportBuilder {
     /// The values set are those of the initial state. Without this call, the first step also counts as the initial
     /// state.
     pub fn begin(&mut self) {
+        self.start();
+        if self.from_initial {
+            self.step();
+        }
+    }
+
+    fn start(&mut self) {
         let moment = Moment { readings: &self.readings, tick: 0, shown: true };
         self.tasks.iter_mut().for_each(|task| task.begin(&moment));
         self.buffers.iter_mut().for_each(|buffer| buffer.begin(&moment));
@@ -109,7 +131,8 @@ impl ReportBuilder {
     /// The values set are those of the state after the next step.
     pub fn step(&mut self) {
         if !self.begun {
-            self.begin();
+            self.from_initial = false;
+            self.start();
         }
         let (tick, shown) = (self.tick, self.tick < self.shown);
         for task in &mut self.tasks {
@@ -151,7 +174,19 @@ impl ReportBuilder {
     /// The run is over.
     pub fn finish(self, model: &str) -> Report {
         let ReportBuilder {
-            spec, readings, tick, shown, activities, tasks, buffers, queues, series, flow, charts, ..
+            spec,
+            readings,
+            tick,
+            shown,
+            from_initial,
+            activities,
+            tasks,
+            buffers,
+            queues,
+            series,
+            flow,
+            charts,
+            ..
         } = self;
         let now = |counters: &[CounterSpec]| -> Vec<(String, Option<i64>)> {
             counters.iter().map(|c| (c.label.clone(), readings.number(Some(&c.term)))).collect()
@@ -165,6 +200,7 @@ impl ReportBuilder {
             model: model.to_owned(),
             time,
             ticks: tick,
+            from_initial,
             shown: shown.min(tick),
             window: window.clamp(1, shown.max(1)),
             tasks: tasks.into_iter().map(|task| task.finish(&moment, &activities)).collect(),

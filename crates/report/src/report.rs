@@ -23,6 +23,8 @@ pub struct Report {
     pub time: TimeBase,
     /// How many ticks the run has.
     pub ticks: u64,
+    /// Whether the first of them shows the initial state, so that the run has one step less.
+    pub from_initial: bool,
     /// How many of them the lanes show; the figures are of the whole run.
     pub shown: u64,
     /// How many ticks the first view shows.
@@ -239,6 +241,11 @@ pub struct Fact {
 }
 
 impl Report {
+    /// How many steps the run has.
+    pub fn steps(&self) -> u64 {
+        self.ticks - u64::from(self.from_initial)
+    }
+
     /// Whether there is anything to be seen over time.
     pub fn has_lanes(&self) -> bool {
         let lanes = self.tasks.len() + self.buffers.len() + self.queues.len() + self.series.len() + self.charts.len();

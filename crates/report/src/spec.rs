@@ -195,6 +195,12 @@ pub struct HopSpec {
 }
 
 impl Spec {
+    /// Steps are only counted: a tick is then the state after so many steps, the initial state among them. Otherwise, and where a task's
+    /// releases are told in ticks, a step takes a tick, and what went on in a tick is seen in the state after it.
+    pub fn counts_steps(&self) -> bool {
+        self.tick_ns.is_none() && self.tasks.iter().all(|task| task.release.is_none())
+    }
+
     /// Every term that must be evaluated, each text once, in the order of the specification.
     pub fn terms(&self) -> Vec<TermText> {
         let mut terms: Vec<&TermText> = Vec::new();

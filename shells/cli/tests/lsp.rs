@@ -470,7 +470,7 @@ default init s0:
         "{made}"
     );
     let lanes = ask("timeline", json!({}));
-    assert_eq!((&lanes["steps"], &lanes["empty"], &lanes["run"]["shown"]), (&json!(1), &json!(false), &json!(1)));
+    assert_eq!((&lanes["steps"], &lanes["empty"], &lanes["run"]["shown"]), (&json!(1), &json!(false), &json!(2)));
     let names: Vec<&Value> = lanes["run"]["lanes"].as_array().unwrap().iter().map(|lane| &lane["n"]).collect();
     assert_eq!(names, ["light", "count"]);
     assert!(

@@ -266,9 +266,9 @@ impl Open {
         let LiveTimeline { markup, run, style } = render_timeline(&report);
         let run: Value =
             serde_json::from_str(&run).map_err(|error| Refused::new(ErrorCode::InternalError, error.to_string()))?;
-        let steps = report.ticks;
+        let (steps, first) = (report.steps(), u64::from(!report.from_initial));
         Ok(serde_json::json!({
-            "steps": steps, "empty": !report.has_lanes(), "markup": markup, "run": run, "style": style
+            "steps": steps, "first": first, "empty": !report.has_lanes(), "markup": markup, "run": run, "style": style
         }))
     }
 

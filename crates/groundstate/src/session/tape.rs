@@ -89,7 +89,7 @@ impl Tape {
     pub fn report(&self, watched: &Watched, model: &str) -> Option<Report> {
         let noted = self.noted.lock().unwrap_or_else(PoisonError::into_inner);
         let last = noted.step?;
-        let shown = noted.full.unwrap_or(last).max(1);
+        let shown = noted.full.unwrap_or(last + u64::from(watched.spec.counts_steps())).max(1);
         let mut builder = ReportBuilder::new(watched.spec.clone()).show_ticks(shown);
         let mut entries = noted.entries.iter().peekable();
         for step in 0..=last {

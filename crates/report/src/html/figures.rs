@@ -56,11 +56,11 @@ pub(super) fn figure(out: &mut String, what: &str, value: &str, remark: &str, ba
 
 fn run(out: &mut String, report: &Report) {
     let steps = if report.time.tick_ns().is_some() {
-        format!("{} steps of {}", count(report.ticks), report.time.short(1))
+        format!("{} steps of {}", count(report.steps()), report.time.short(1))
     } else {
         "steps made".to_owned()
     };
-    figure(out, "Simulated", &report.time.run(report.ticks), &steps, report.stopped.is_some());
+    figure(out, "Simulated", &report.time.run(report.steps()), &steps, report.stopped.is_some());
 }
 
 fn deadlines(out: &mut String, report: &Report) {

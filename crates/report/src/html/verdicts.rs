@@ -10,7 +10,7 @@ pub(super) fn invariants(out: &mut String, report: &Report) {
     if report.invariants.is_empty() {
         return;
     }
-    let lead = format!("Evaluated in every one of the {} states.", count(report.ticks + 1));
+    let lead = format!("Evaluated in every one of the {} states.", count(report.steps() + 1));
     section(out, "invariants", "Invariants", &lead);
     out.push_str("<ul class=\"checks\">\n");
     for invariant in &report.invariants {

@@ -77,6 +77,7 @@ pub(super) fn lanes(recording: &Recording, timing: &[TaskTiming], span_ns: u64) 
         model: recording.system.clone(),
         time: TimeBase::new(TICK_NS),
         ticks,
+        from_initial: false,
         shown: ticks.min(SHOWN),
         window: ticks.min(WINDOW),
         activities,

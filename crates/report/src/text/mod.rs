@@ -40,10 +40,10 @@ impl Default for SummaryOptions {
 pub fn summarise(report: &Report, options: &SummaryOptions) -> String {
     let mut out = String::new();
     put!(out, "{}\n", report.title);
-    let steps = format!("{} steps", count(report.ticks));
+    let steps = format!("{} steps", count(report.steps()));
     match report.time.tick_ns() {
         Some(_) => {
-            put!(out, "{}: {}, {steps} of {}\n", report.model, report.time.run(report.ticks), report.time.short(1))
+            put!(out, "{}: {}, {steps} of {}\n", report.model, report.time.run(report.steps()), report.time.short(1))
         }
         None => put!(out, "{}: {steps}\n", report.model),
     }
