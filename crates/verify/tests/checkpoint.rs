@@ -128,9 +128,9 @@ fn what_becomes_too_narrow_on_the_way_is_found_again() {
 /// What a search has compiled is no part of the question that it answers.
 #[test]
 fn a_search_whose_steps_are_compiled_goes_on() {
-    let may_grow = |name: &str| format!("if d{name} and {name} < 11 then {name} := {name} + 1 endif ");
+    let may_grow = |name: &str| format!("if d{name} and {name} < 20 then {name} := {name} + 1 endif ");
     let text = format!(
-        "asm Grid\nimport StandardLibrary\nsignature:\n domain Small subsetof Integer\n{}definitions:\n domain Small = {{0 : 11}}\n \
+        "asm Grid\nimport StandardLibrary\nsignature:\n domain Small subsetof Integer\n{}definitions:\n domain Small = {{0 : 20}}\n \
          main rule r_Main = par {} endpar\ndefault init s0:\n{}",
         ["x", "y", "z"].map(|name| format!(" controlled {name}: Small\n monitored d{name}: Boolean\n")).concat(),
         ["x", "y", "z"].map(may_grow).concat(),
@@ -139,7 +139,7 @@ fn a_search_whose_steps_are_compiled_goes_on() {
     let program = lowered(SourceFile::new("Grid.asm", text));
     let options = Options { engine: verify::EngineKind::Explicit, ..Options::default() };
     assert!(straight(&program, &options).progress.compiled > 0, "its steps are to be compiled");
-    agrees(&program, &options, 500, &[1, 2]);
+    agrees(&program, &options, 3_000, &[1, 2]);
 }
 
 #[test]
