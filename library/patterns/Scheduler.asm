@@ -29,7 +29,7 @@ signature:
 	enum domain SyncPriority = {MASTER | SLAVE}
 
 	// What a task is seen to do: an observation, not a control state
-	enum domain Activity = {IDLE | ELABORATION | READ_ACCESS | WRITE_ACCESS | LOCK_WAIT | LOCK_HELD | MESSAGE_ACCESS}
+	enum domain Activity = {IDLE | ELABORATION | READ_ACCESS | WRITE_ACCESS | LOCK_WAIT | LOCK_HELD | ROOM_WAIT | MESSAGE_ACCESS}
 
 	// Configuration of a scheduler and its phases
 	controlled scheduler_mainThread: Scheduler -> Task
@@ -116,7 +116,13 @@ definitions:
 		switch action(scheduler_currentPhase($c))
 			case WAITING_TRIGGER: IDLE
 			case ELABORATING: ELABORATION
-			case SENDING: MESSAGE_ACCESS
+			// As long as the queue is full it waits, if there is time.
+			case SENDING:
+				if mq_isFull(messageQueue(scheduler_currentPhase($c))) and thereIsTime(scheduler_mainThread($c)) then
+					ROOM_WAIT
+				else
+					MESSAGE_ACCESS
+				endif
 			case RECEIVING: MESSAGE_ACCESS
 			case STORING: WRITE_ACCESS
 			case LOADING: READ_ACCESS
