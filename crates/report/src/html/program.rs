@@ -56,6 +56,9 @@ fn header(out: &mut String, program: &Program) {
         if let Some(held) = &run.verdict {
             check(out, held.conforms, &name, &held.words);
         }
+        if let Some(words) = run.outside() {
+            check(out, Some(false), &name, &words);
+        }
         if run.lossy {
             check(out, None, &name, LOSSY);
         }

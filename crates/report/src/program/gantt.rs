@@ -131,6 +131,8 @@ fn task(track: &recording::Track, timing: &TaskTiming, intervals: &[Interval], k
             (None, None) => "again and again".to_owned(),
         },
         period: timing.period_ns.map(|ns| ns / TICK_NS),
+        deadline: track.rhythm.map(|rhythm| length(0, rhythm.deadline_ns) / TICK_NS),
+        may_miss: false,
         track: lane,
         shares,
         waits,
@@ -190,6 +192,10 @@ fn held(recording: &Recording) -> BTreeMap<&str, Vec<(i64, i64, &str)>> {
                 _ => {}
             }
         }
+        // What is not left at the end is held to the end.
+        for (channel, from_ns) in since {
+            found.entry(channel).or_default().push((from_ns, i64::MAX, &track.task));
+        }
     }
     found.values_mut().for_each(|stays| stays.sort_unstable());
     found
@@ -225,9 +231,11 @@ fn intervals(
             EventKind::Asks => asked = Some((event.time_ns, &event.object)),
             EventKind::Enters | EventKind::GivesUp => {
                 let Some((from_ns, channel)) = asked.take() else { continue };
+                // The last that another task was inside while this one waited.
                 let other = held.get(channel).and_then(|stays| {
-                    let before = stays.partition_point(|(entered, ..)| *entered <= from_ns);
-                    stays[..before].last().filter(|(_, left, who)| *left > from_ns && *who != task)
+                    let before = stays.partition_point(|(entered, ..)| *entered <= from_ns || *entered < event.time_ns);
+                    let mut others = stays[..before].iter().rev().filter(|(.., who)| *who != task);
+                    others.next().filter(|(_, left, _)| *left > from_ns)
                 });
                 if let (Some((_, left_ns, _)), Some(begun_ns)) = (other, since_ns) {
                     let until_ns =
@@ -298,6 +306,20 @@ mod tests {
         assert_eq!(of(0), [(0, 3, Activity::Reads), (3, 5, Activity::Elaborates)]);
         // It asked at 2, and the other one left at 3; then it is at its own work.
         assert_eq!(of(1), [(1, 2, Activity::Writes), (2, 3, Activity::Waits), (3, 6, Activity::Writes)]);
+    }
+
+    #[test]
+    fn another_may_come_in_while_a_task_waits() {
+        let ms = 1_000_000;
+        let mut recording = two();
+        // The reader gets the lock a little after the writer has asked for it, and keeps it to the end.
+        recording.tracks[0].events = vec![event(0, "begins", "read"), event(2 * ms + 1, "enters", "c")];
+        recording.tracks[1].events.truncate(2);
+        recording.tracks[1].events.push(event(5 * ms, "gives_up", "c"));
+        let (phases, held) = (activities(&recording), held(&recording));
+        let waits = intervals("writer", &recording.tracks[1].events, &phases, &held);
+        let waits: Vec<_> = waits.into_iter().filter(|one| one.activity == Activity::Waits).collect();
+        assert_eq!(waits, [Interval { from_ns: 2 * ms, to_ns: 5 * ms, activity: Activity::Waits }]);
     }
 
     #[test]

@@ -172,6 +172,16 @@ impl ProgramRun {
         }
     }
 
+    /// What the program counted outside the bounds of its chart, in a sentence; none if nothing was.
+    pub(crate) fn outside(&self) -> Option<String> {
+        let outside: Vec<&Bounded> = self.bounds.iter().filter(|bound| bound.outside() > 0).collect();
+        let told = outside.iter().map(|bound| {
+            format!("{} {}: outside {} of {} times", bound.what, bound.limit, count(bound.outside()), count(bound.seen))
+        });
+        (!outside.is_empty())
+            .then(|| format!("not all is within the chart's bounds: {}", told.collect::<Vec<_>>().join("; ")))
+    }
+
     /// How long it was, in words; for a long run, without the part of a cycle that is left over at the end.
     pub(crate) fn span(&self) -> String {
         const TENTH_NS: u64 = 100_000_000;
