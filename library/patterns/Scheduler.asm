@@ -29,7 +29,8 @@ signature:
 	enum domain SyncPriority = {MASTER | SLAVE}
 
 	// What a task is seen to do: an observation, not a control state
-	enum domain Activity = {IDLE | ELABORATION | READ_ACCESS | WRITE_ACCESS | LOCK_WAIT | LOCK_HELD | ROOM_WAIT | MESSAGE_ACCESS}
+	enum domain Activity = {
+		IDLE | ELABORATION | READ_ACCESS | WRITE_ACCESS | LOCK_WAIT | LOCK_HELD | ROOM_WAIT | MESSAGE_ACCESS}
 
 	// Configuration of a scheduler and its phases
 	controlled scheduler_mainThread: Scheduler -> Task

@@ -98,7 +98,7 @@ fn a_report() {
     // The initial state and the end are reported; nothing is wrong in between.
     assert_eq!((told, last), (2, 5_000));
     let report = job.finish().expect("no panic").finish();
-    assert_eq!((report.ticks, report.stopped), (5_000, None));
+    assert_eq!((report.steps(), report.stopped), (5_000, None));
 }
 
 #[test]

@@ -59,7 +59,7 @@ impl ReportBuilder {
         let mut readings = Readings::new(spec.terms());
         let activities = spec.activities.iter().map(|a| Kind { label: a.label.clone(), tone: a.tone }).collect();
         let values: Vec<_> = spec.activities.iter().map(|activity| readings.read(&activity.value)).collect();
-        let tasks = spec.tasks.iter().map(|task| TaskWatch::new(task, &values, &readings)).collect();
+        let tasks = spec.tasks.iter().map(|task| TaskWatch::new(task, &values, &mut readings)).collect();
         let buffers = spec.buffers.iter().map(|buffer| BufferWatch::new(buffer, &readings)).collect();
         let queues = spec.queues.iter().map(|queue| (readings.slot(&queue.length), new_queue(queue))).collect();
         let series = spec.series.iter().map(|series| (readings.slot(&series.value), new_series(series))).collect();
@@ -200,7 +200,7 @@ impl ReportBuilder {
             model: model.to_owned(),
             time,
             ticks: tick,
-            from_initial,
+            from_initial: from_initial && tick > 0,
             shown: shown.min(tick),
             window: window.clamp(1, shown.max(1)),
             tasks: tasks.into_iter().map(|task| task.finish(&moment, &activities)).collect(),
@@ -235,6 +235,7 @@ fn new_queue(spec: &QueueSpec) -> Queue {
     Queue {
         from: spec.from.clone(),
         to: spec.to.clone(),
+        kind: if spec.kind.is_empty() { "queue".to_owned() } else { spec.kind.clone() },
         length: Curve::default(),
         lengths: Tally::default(),
         capacity: None,

@@ -127,7 +127,8 @@ fn channels(report: &Report) -> Vec<Lane<'_>> {
             ticks: false,
             bound_label: String::new(),
         };
-        let lane = Lane::plain(queue.from.clone(), format!("\u{2192} {}, queue", queue.to), TWO_LINES.max(QUEUE));
+        let lane =
+            Lane::plain(queue.from.clone(), format!("\u{2192} {}, {}", queue.to, queue.kind), TWO_LINES.max(QUEUE));
         Lane { graph: Some(graph), ..lane }
     });
     buffers.chain(queues).collect()

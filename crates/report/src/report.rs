@@ -66,6 +66,10 @@ pub struct Task {
     pub caption: String,
     /// Ticks of its period.
     pub period: Option<u64>,
+    /// Its deadline in ticks from the start of a period, if it is not the whole period.
+    pub deadline: Option<u64>,
+    /// It may miss deadlines; an invariant says how many.
+    pub may_miss: bool,
     /// What it did; its kinds are [`Report::activities`].
     pub track: Track,
     /// Ticks spent in each activity, in the whole run.
@@ -119,6 +123,8 @@ pub struct Queue {
     pub from: String,
     /// Who receives.
     pub to: String,
+    /// What it is: a queue, unless the specification says something else.
+    pub kind: String,
     /// Messages in it.
     pub length: Curve,
     /// Its length, weighed by ticks.
@@ -295,7 +301,7 @@ impl Report {
     pub fn troubles(&self) -> Vec<String> {
         let mut troubles = Vec::new();
         troubles.extend(self.stopped.clone());
-        for task in &self.tasks {
+        for task in self.tasks.iter().filter(|task| !task.may_miss) {
             match task.missed.unwrap_or(0) {
                 0 => {}
                 1 => troubles.push(format!("{} missed a deadline", task.name)),
@@ -340,6 +346,16 @@ pub(crate) const UNCHECKED: &str =
     "Nothing was checked: the run has no invariants, no deadlines, no bounds and no scenarios.";
 
 impl Task {
+    /// Whether it missed a deadline, or was late at the end.
+    pub fn is_late(&self) -> bool {
+        self.missed.is_some_and(|missed| missed > 0) || self.overdue.is_some()
+    }
+
+    /// The ticks that a cycle may take: up to its deadline.
+    pub fn allowed(&self) -> Option<u64> {
+        self.deadline.or(self.period)
+    }
+
     /// Its period and its caption.
     pub fn describe(&self, time: TimeBase) -> String {
         match self.period {

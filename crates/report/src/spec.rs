@@ -97,7 +97,11 @@ pub struct TaskSpec {
     pub activity: TermText,
     /// Its period in ticks, read in the first state; if it is undef, release and deadlines do not count.
     pub period: Option<TermText>,
-    /// The tick at which its present period began; the period is its deadline.
+    /// Its deadline in ticks from the start of a period, read in the first state; the whole period, if it is undef.
+    pub deadline: Option<TermText>,
+    /// Whether it may miss deadlines, read in the first state: then a missed one is no trouble, and an invariant says how many may be.
+    pub may_miss: Option<TermText>,
+    /// The tick at which its present period began.
     pub release: Option<TermText>,
     /// How many cycles it has completed.
     pub cycles: Option<TermText>,
@@ -141,6 +145,8 @@ pub struct QueueSpec {
     pub from: String,
     /// Who receives.
     pub to: String,
+    /// What it is: a queue, if this is empty; or a shared value, which holds one datum until it is read.
+    pub kind: String,
     /// How many messages are in it.
     pub length: TermText,
     /// How many it can hold, read in the first state.
@@ -207,9 +213,18 @@ impl Spec {
         for task in &self.tasks {
             terms.push(&task.activity);
             terms.extend(
-                [&task.period, &task.release, &task.cycles, &task.met, &task.missed, &task.skipped]
-                    .into_iter()
-                    .flatten(),
+                [
+                    &task.period,
+                    &task.deadline,
+                    &task.may_miss,
+                    &task.release,
+                    &task.cycles,
+                    &task.met,
+                    &task.missed,
+                    &task.skipped,
+                ]
+                .into_iter()
+                .flatten(),
             );
         }
         for buffer in &self.buffers {

@@ -187,8 +187,20 @@ impl Reader {
     }
 
     fn spec(&mut self, root: &Node) -> Spec {
-        let known =
-            ["title", "note", "tick", "window", "activities", "tasks", "buffers", "queues", "series", "flow", "charts"];
+        let known = [
+            "title",
+            "note",
+            "tick",
+            "window",
+            "activities",
+            "tasks",
+            "buffers",
+            "queues",
+            "values",
+            "series",
+            "flow",
+            "charts",
+        ];
         let fields = self.fields(Some(root), &known);
         let tick_ns = fields.get("tick").and_then(|node| self.duration(node));
         let window = fields.get("window").map_or(0, |node| self.ticks(node, tick_ns));
@@ -201,7 +213,11 @@ impl Reader {
             activities,
             tasks: self.tasks(fields.get("tasks")),
             buffers: self.buffers(fields.get("buffers")),
-            queues: self.queues(fields.get("queues")),
+            queues: [
+                self.queues(fields.get("queues"), "queue", "length"),
+                self.queues(fields.get("values"), "shared value", "unread"),
+            ]
+            .concat(),
             series: self.series(fields.get("series")),
             flow: fields.get("flow").map(|node| self.flow(node, fields.get("tasks"))),
             ..Spec::default()
@@ -326,13 +342,15 @@ impl Reader {
     }
 
     fn tasks(&mut self, node: Option<&Node>) -> Vec<TaskSpec> {
-        let terms = ["activity", "period", "release", "cycles", "met", "missed", "skipped"];
+        let terms = ["activity", "period", "deadline", "may_miss", "release", "cycles", "met", "missed", "skipped"];
         let lanes = self.lanes(node, &["name", "caption"], &terms);
         let task = |lane: &Lane| TaskSpec {
             name: self.text(lane.own.get("name")).unwrap_or_else(|| lane.id.to_string()),
             caption: self.text(lane.own.get("caption")).unwrap_or_default(),
             activity: self.lane_term(lane, "activity").unwrap_or_default(),
             period: self.lane_term(lane, "period"),
+            deadline: self.lane_term(lane, "deadline"),
+            may_miss: self.lane_term(lane, "may_miss"),
             release: self.lane_term(lane, "release"),
             cycles: self.lane_term(lane, "cycles"),
             met: self.lane_term(lane, "met"),
@@ -360,22 +378,25 @@ impl Reader {
         lanes.iter().map(buffer).collect()
     }
 
-    fn queues(&mut self, node: Option<&Node>) -> Vec<QueueSpec> {
-        let lanes = self.lanes(node, &["from", "to"], &["length", "capacity"]);
+    /// Queues, or what holds one datum; the term `length` counts what is in them.
+    fn queues(&mut self, node: Option<&Node>, kind: &str, length: &'static str) -> Vec<QueueSpec> {
+        let terms = if kind == "queue" { &[length, "capacity"][..] } else { &[length] };
+        let lanes = self.lanes(node, &["from", "to"], terms);
         let mut queues = Vec::new();
         for lane in &lanes {
-            let Some(length) = self.lane_term(lane, "length") else {
+            let Some(held) = self.lane_term(lane, length) else {
                 let span = node.map_or(Span { file: FileId(0), start: 0, end: 0 }, |node| node.span);
                 self.refuse(
                     span,
-                    format!("queue `{}` has no `length`: name the term that counts what is in it", lane.id),
+                    format!("the {kind} `{}` has no `{length}`: name the term that counts what is in it", lane.id),
                 );
                 continue;
             };
             queues.push(QueueSpec {
                 from: self.text(lane.own.get("from")).unwrap_or_else(|| lane.id.to_string()),
                 to: self.text(lane.own.get("to")).unwrap_or_default(),
-                length,
+                kind: kind.to_string(),
+                length: held,
                 capacity: self.lane_term(lane, "capacity"),
                 counters: self.counters(lane),
             });

@@ -2,6 +2,7 @@
 //! them run.
 
 mod charts;
+mod figures;
 mod fixture;
 mod geometry;
 mod markup;

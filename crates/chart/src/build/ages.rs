@@ -50,6 +50,12 @@ impl Ages {
         }
         ages
     }
+
+    /// The ways: their names, and the number of the bound of each.
+    pub(super) fn ways(&self) -> impl Iterator<Item = (&str, usize)> {
+        self.ways.iter().map(|way| (way.name.as_str(), way.bound))
+    }
+
     /// The elements, with their domains.
     pub(super) fn elements(&self) -> Vec<(String, &'static str)> {
         let hops = self.hops.iter().map(|hop| (hop.name.clone(), "Hop"));

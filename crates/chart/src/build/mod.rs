@@ -5,6 +5,7 @@
 //! declaration and definition in the file stays as it is, and what is missing is added.
 
 mod ages;
+mod figures;
 mod known;
 mod merge;
 mod module;
@@ -14,6 +15,7 @@ mod spelling;
 pub(crate) mod system;
 mod table;
 
+pub use figures::{Figure, figures};
 pub(crate) use known::OWNED;
 pub use known::{Known, Unknown};
 pub(crate) use rule::{machine_rule, origin_condition};

@@ -68,13 +68,13 @@ pub(super) fn observed(system: &System, tick: &str, after: &str, forgets: bool) 
 }
 
 /// The phases that have to read something new now and then.
-fn readings(system: &System) -> impl Iterator<Item = (&Phase, &FreshBound)> {
+pub(super) fn readings(system: &System) -> impl Iterator<Item = (&Phase, &FreshBound)> {
     let phases = system.components.iter().flat_map(|component| &component.phases);
     phases.filter_map(|phase| Some((phase, phase.fresh.as_ref()?)))
 }
 
 /// The element that stands for what a phase reads.
-fn reading(phase: &Phase) -> String {
+pub(super) fn reading(phase: &Phase) -> String {
     format!("{}_fresh", phase.name)
 }
 

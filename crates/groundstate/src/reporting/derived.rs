@@ -8,6 +8,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use chart::Chart;
+use chart::build::{Figure, figures};
 use chart::system::{Channel, ChannelKind, Component, System, Timing};
 use model::Loader;
 use program::Program;
@@ -62,7 +63,7 @@ fn specification(chart: &Chart, file: &str) -> Option<String> {
     tasks(&mut out, system);
     buffers(&mut out, system);
     queues(&mut out, system);
-    values(&mut out, system);
+    bounds(&mut out, system);
     let _ = writeln!(out, "charts: {{ {}: {{}} }}", quoted(file));
     Some(out)
 }
@@ -75,6 +76,7 @@ activities:
   WRITE_ACCESS: [writing, write]
   LOCK_HELD: [holding the lock, hold]
   LOCK_WAIT: [waiting for the lock, wait]
+  ROOM_WAIT: [waiting for room, wait]
   MESSAGE_ACCESS: [passing a message, message]
 ";
 
@@ -92,7 +94,8 @@ fn tasks(out: &mut String, system: &System) {
         let _ = writeln!(out, "    {id}: {{ name: {name}, caption: {} }}", quoted(&caption));
     }
     out.push_str(
-        "  terms:\n    activity: activity({})\n    period: task_period({}_task)\n    release: task_periodStart({}_task)\n    \
+        "  terms:\n    activity: activity({})\n    period: task_period({}_task)\n    deadline: task_deadline({}_task)\n    \
+         may_miss: mayBeLate({}_task)\n    release: task_periodStart({}_task)\n    \
          cycles: task_cycles({}_task)\n    met: task_deadlinesMet({}_task)\n    missed: task_deadlinesMissed({}_task)\n    \
          skipped: task_skipped({}_task)\n",
     );
@@ -123,6 +126,7 @@ fn buffers(out: &mut String, system: &System) {
     }
 }
 
+/// Writes the queues, and the shared values as what holds one datum until it is read.
 fn queues(out: &mut String, system: &System) {
     if each(out, system, "queues", |channel| matches!(channel.kind, ChannelKind::Queue { .. })) {
         out.push_str(
@@ -130,23 +134,28 @@ fn queues(out: &mut String, system: &System) {
              delivered: mq_taken({})\n    refused: mq_refused({})\n",
         );
     }
+    if each(out, system, "values", |channel| channel.kind == ChannelKind::Shared) {
+        out.push_str(
+            "  terms:\n    unread: \"if sv_isNew({}) then 1 else 0 endif\"\n  counters:\n    written: sv_sequence({})\n    \
+             overwritten: sv_overwritten({})\n",
+        );
+    }
 }
 
-/// Writes a series for each shared value: whether its last value has been read.
-fn values(out: &mut String, system: &System) {
-    let values: Vec<&Channel> = system.channels.iter().filter(|channel| channel.kind == ChannelKind::Shared).collect();
-    if values.is_empty() {
+/// Writes what is counted of the chart's bounds.
+fn bounds(out: &mut String, system: &System) {
+    let figures = figures(system);
+    if figures.is_empty() {
         return;
     }
     out.push_str("series:\n");
-    for channel in values {
-        let ends = [channel.from, channel.to].map(|index| name(&system.components[index]));
-        let (title, caption) =
-            (quoted(&spoken(&channel.name)), quoted(&format!("{}: 1 until read by {}", ends[0], ends[1])));
+    for Figure { name, caption, value, bound, ticks } in figures {
+        let unit = if ticks { ", unit: ticks" } else { "" };
         let _ = writeln!(
             out,
-            "  {title}: {{ caption: {caption}, value: \"if sv_isNew({}) then 1 else 0 endif\" }}",
-            channel.name
+            "  {}: {{ caption: {}, value: {value}, bound: {bound}{unit} }}",
+            quoted(&name),
+            quoted(&caption)
         );
     }
 }

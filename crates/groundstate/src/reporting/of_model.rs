@@ -11,6 +11,7 @@ use chart::{Chart, subjects};
 use machine::{Limits, Machine, Show, Value};
 use model::Basic;
 use program::{DomainId, DomainKind, Function, FunctionKind, Program};
+use report::Tone;
 
 /// LIMIT: lanes of one function; a function with more locations is left out.
 const LOCATIONS: usize = 16;
@@ -30,6 +31,7 @@ enum Shown {
 pub fn model_specification(program: &Arc<Program>, chart: Option<(&Chart, &str)>) -> String {
     let mut machine = Machine::new(Arc::clone(program), Limits::default());
     let (mut lanes, mut curves, mut left) = (Vec::new(), Vec::new(), Vec::new());
+    let mut enums: Vec<DomainId> = Vec::new();
     for function in program.functions.iter().filter(|function| is_state(function)) {
         let Some(shown) = shown(program, function.codomain) else { continue };
         let (group, most) = match shown {
@@ -37,7 +39,10 @@ pub fn model_specification(program: &Arc<Program>, chart: Option<(&Chart, &str)>
             Shown::Curve => (&mut curves, CURVES),
         };
         match locations(&mut machine, function) {
-            Some(found) if group.len() + found.len() <= most => group.extend(found),
+            Some(found) if group.len() + found.len() <= most => {
+                group.extend(found);
+                enums.extend(enumeration(program, function.codomain).filter(|domain| !enums.contains(domain)));
+            }
             _ => left.push(function.name.as_str()),
         }
     }
@@ -47,6 +52,12 @@ pub fn model_specification(program: &Arc<Program>, chart: Option<(&Chart, &str)>
         let _ = writeln!(out, "# Left out, since there would be too many lanes: {}", left.join(", "));
     }
     out.push_str("activities:\n  \"false\": [\"false\", idle]\n  \"true\": [\"true\", work]\n");
+    // A literal has the same colour whenever it is first seen in a run: by its place among all of them.
+    let literals = enums.iter().filter_map(|domain| literals(program, *domain)).flatten();
+    for (place, literal) in literals.enumerate() {
+        let words = literal.to_lowercase().replace('_', " ");
+        let _ = writeln!(out, "  {}: [{}, {}]", quoted(literal), quoted(&words), Tone::by_order(place).name());
+    }
     if !lanes.is_empty() {
         out.push_str("tasks:\n  each:\n");
         for lane in &lanes {
@@ -91,6 +102,22 @@ fn shown(program: &Program, domain: DomainId) -> Option<Shown> {
         | DomainKind::Bag(_)
         | DomainKind::Map(..)
         | DomainKind::Rule(_) => None,
+    }
+}
+
+/// The enumeration that a domain is, or that it is a part of.
+fn enumeration(program: &Program, domain: DomainId) -> Option<DomainId> {
+    match &program.domain(domain).kind {
+        DomainKind::Enum { .. } => Some(domain),
+        DomainKind::Concrete { base, .. } => enumeration(program, *base),
+        _ => None,
+    }
+}
+
+fn literals(program: &Program, domain: DomainId) -> Option<&[String]> {
+    match &program.domain(domain).kind {
+        DomainKind::Enum { literals } => Some(literals),
+        _ => None,
     }
 }
 

@@ -34,9 +34,10 @@ pub(super) struct At {
     pub has_colon: bool,
 }
 
-const TASK: [&str; 7] = ["activity", "period", "release", "cycles", "met", "missed", "skipped"];
+const TASK: [&str; 9] = ["activity", "period", "deadline", "may_miss", "release", "cycles", "met", "missed", "skipped"];
 const BUFFER: [&str; 7] = ["arrays", "writing", "reading", "write_index", "read_index", "lock", "swaps"];
 const QUEUE: [&str; 2] = ["length", "capacity"];
+const VALUE: [&str; 1] = ["unread"];
 
 /// What may stand at an offset of a specification.
 pub(super) fn at(kind: Kind, text: &str, offset: u32) -> Option<At> {
@@ -64,6 +65,7 @@ fn in_report(keys: &[&str], value: bool) -> Slot {
         "tasks" => Some((&["name", "caption"][..], &TASK[..])),
         "buffers" => Some((&["from", "to"][..], &BUFFER[..])),
         "queues" => Some((&["from", "to"][..], &QUEUE[..])),
+        "values" => Some((&["from", "to"][..], &VALUE[..])),
         _ => None,
     };
     let term = Slot::Term { condition: false };
@@ -78,6 +80,7 @@ fn in_report(keys: &[&str], value: bool) -> Slot {
             "tasks",
             "buffers",
             "queues",
+            "values",
             "series",
             "flow",
             "charts",

@@ -12,6 +12,8 @@ use crate::track::{Kind, Track};
 pub(super) struct TaskWatch {
     activity: Slot,
     period: Option<Slot>,
+    deadline: Option<Slot>,
+    may_miss: Option<(Slot, Reading)>,
     release: Option<Slot>,
     cycles: Option<Slot>,
     met: Option<Slot>,
@@ -33,11 +35,13 @@ pub(super) struct TaskWatch {
 
 impl TaskWatch {
     /// `values`: the activities that the specification names.
-    pub fn new(spec: &TaskSpec, values: &[Reading], readings: &Readings) -> TaskWatch {
+    pub fn new(spec: &TaskSpec, values: &[Reading], readings: &mut Readings) -> TaskWatch {
         let task = Task {
             name: spec.name.clone(),
             caption: spec.caption.clone(),
             period: None,
+            deadline: None,
+            may_miss: false,
             track: Track::default(),
             shares: Vec::new(),
             waits: Tally::default(),
@@ -53,6 +57,8 @@ impl TaskWatch {
         TaskWatch {
             activity: readings.slot(&spec.activity),
             period: readings.optional(spec.period.as_ref()),
+            deadline: readings.optional(spec.deadline.as_ref()),
+            may_miss: readings.optional(spec.may_miss.as_ref()).map(|slot| (slot, readings.read("true"))),
             release: readings.optional(spec.release.as_ref()),
             cycles: readings.optional(spec.cycles.as_ref()),
             met: readings.optional(spec.met.as_ref()),
@@ -69,8 +75,13 @@ impl TaskWatch {
     }
 
     pub fn begin(&mut self, moment: &Moment) {
-        let period = self.period.and_then(|slot| moment.readings.integer(slot));
-        self.task.period = period.and_then(|ticks| u64::try_from(ticks).ok()).filter(|ticks| *ticks > 0);
+        let length = |slot: Option<Slot>| {
+            let ticks = slot.and_then(|slot| moment.readings.integer(slot)).and_then(|ticks| u64::try_from(ticks).ok());
+            ticks.filter(|ticks| *ticks > 0)
+        };
+        self.task.period = length(self.period);
+        self.task.deadline = length(self.deadline);
+        self.task.may_miss = self.may_miss.is_some_and(|(slot, holds)| moment.readings.value(slot) == Some(holds));
         if self.period.is_some() && self.task.period.is_none() {
             // Other tasks of this kind have periods; this one has none, so it has neither releases nor deadlines.
             (self.release, self.met, self.missed) = (None, None, None);
@@ -165,8 +176,8 @@ impl TaskWatch {
     pub fn finish(mut self, moment: &Moment, activities: &[Kind]) -> Task {
         self.end_waiting(moment.tick);
         let natural = |slot: Option<Slot>| slot.and_then(|slot| moment.readings.integer(slot)).map(|n| n.max(0) as u64);
-        if let (Some(release), Some(period), true) = (natural(self.release), self.task.period, self.open) {
-            self.task.overdue = moment.tick.checked_sub(release + period).filter(|late| *late > 0);
+        if let (Some(release), Some(allowed), true) = (natural(self.release), self.task.allowed(), self.open) {
+            self.task.overdue = moment.tick.checked_sub(release + allowed).filter(|late| *late > 0);
         }
         self.task.completed = natural(self.cycles);
         self.task.met = natural(self.met);

@@ -77,15 +77,17 @@ function drawingOf(run) {
 
   const boxPath = (x, y, w, h) => `M${px(x)} ${px(y)}h${px(w)}v${px(h)}h-${px(w)}z`;
 
+  const labelWidth = (label) => [...label].reduce((sum, c) => sum + (c === "." ? 0.28 : 0.57), 0) * 11;
+
   function drawAxis(view) {
     const least = APART / view.scale * run.factor, power = 10 ** Math.floor(Math.log10(least));
     const unitStep = power * [1, 2, 5, 10].find((factor) => power * factor >= least * 0.999);
     const step = Math.max(1, unitStep / run.factor);
     let lines = "", labels = "";
     for (let index = Math.ceil(view.start / step - 1e-9); index * step <= view.end + 1e-6; index++) {
-      const x = px(view.x(index * step));
-      lines += `M${x} -4V${px(run.height)}`;
-      labels += `<text x="${x}" y="-9">${parseFloat((index * step * run.factor).toFixed(3))}</text>`;
+      const x = view.x(index * step), label = String(parseFloat((index * step * run.factor).toFixed(3)));
+      lines += `M${px(x)} -4V${px(run.height)}`;
+      labels += `<text x="${px(Math.min(x, view.width - labelWidth(label) / 2))}" y="-9">${label}</text>`;
     }
     return `<path class="grid" d="${lines}"/><g class="ticks">${labels}<text class="unit" x="${px(view.left - 26)}" y="-9">${run.unit}</text></g>`;
   }

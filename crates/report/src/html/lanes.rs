@@ -55,7 +55,9 @@ fn legend(out: &mut String, report: &Report) {
     }
     let mut marks: Vec<(String, &str)> = Vec::new();
     if report.tasks.iter().any(|task| !task.releases.is_empty()) {
-        marks.push(("bar".to_owned(), "a period begins, the deadline of the one before"));
+        let early = report.tasks.iter().any(|task| task.deadline.is_some() && task.deadline != task.period);
+        let begins = if early { "a period begins" } else { "a period begins, the deadline of the one before" };
+        marks.push(("bar".to_owned(), begins));
     }
     if report.tasks.iter().any(|task| !task.misses.is_empty()) {
         marks.push(("late".to_owned(), "completed after its deadline"));

@@ -19,9 +19,9 @@ pub(super) fn tasks(out: &mut String, report: &Report) {
         out,
         "tasks",
         "Tasks",
-        "Response is the time from the begin of a period to the end of its cycle; for a task without periods, from when it is no longer idle, or from one end to the next if it never is. The bar shows it within the period: the mean dark, the longest pale.",
+        "Response is the time from the begin of a period to the end of its cycle; for a task without periods, from when it is no longer idle, or from one end to the next if it never is. The bar shows it within the time up to the deadline: the mean dark, the longest pale.",
     );
-    out.push_str("<div class=\"wide\"><table class=\"tasks\">\n<thead><tr><th scope=\"col\">Task</th><th scope=\"col\">Cycles</th><th scope=\"col\">Deadlines met</th><th scope=\"col\">missed</th><th scope=\"col\">Response, mean</th><th scope=\"col\">longest</th><th scope=\"col\" class=\"drawn\">within the period</th><th scope=\"col\">Given up</th><th scope=\"col\" class=\"drawn\">Use of time</th></tr></thead>\n<tbody>\n");
+    out.push_str("<div class=\"wide\"><table class=\"tasks\">\n<thead><tr><th scope=\"col\">Task</th><th scope=\"col\">Cycles</th><th scope=\"col\">Deadlines met</th><th scope=\"col\">missed</th><th scope=\"col\">Response, mean</th><th scope=\"col\">longest</th><th scope=\"col\" class=\"drawn\">within the deadline</th><th scope=\"col\">Given up</th><th scope=\"col\" class=\"drawn\">Use of time</th></tr></thead>\n<tbody>\n");
     for task in &report.tasks {
         task_row(out, report, task);
     }
@@ -41,7 +41,7 @@ fn task_row(out: &mut String, report: &Report, task: &Task) {
     put!(out, "<tr><th scope=\"row\">{}<small>{}</small></th>", Text(&task.name), Text(task.describe(time)));
     number(out, task.completed, false);
     number(out, task.met, false);
-    number(out, task.missed.map(|missed| missed + u64::from(task.overdue.is_some())), true);
+    number(out, task.missed.map(|missed| missed + u64::from(task.overdue.is_some())), !task.may_miss);
     match task.cycles.greatest() {
         Some((most, at)) => {
             put!(out, "<td>{}</td><td>{}</td>", time.mean(task.cycles.mean()), go(at, &time.show(most)));
@@ -49,8 +49,8 @@ fn task_row(out: &mut String, report: &Report, task: &Task) {
         None => out.push_str("<td class=\"nil\">\u{2013}</td><td class=\"nil\">\u{2013}</td>"),
     }
     out.push_str("<td class=\"drawn\">");
-    if let (Some(period), Some((most, _))) = (task.period, task.cycles.greatest()) {
-        response_bar(out, task.cycles.mean() / period as f64, most as f64 / period as f64);
+    if let (Some(allowed), Some((most, _))) = (task.allowed(), task.cycles.greatest()) {
+        response_bar(out, task.cycles.mean() / allowed as f64, most as f64 / allowed as f64);
     }
     out.push_str("</td>");
     number(out, task.skipped, true);
@@ -59,13 +59,13 @@ fn task_row(out: &mut String, report: &Report, task: &Task) {
     out.push_str("</td></tr>\n");
 }
 
-/// Mean and longest response as parts of the period.
+/// Mean and longest response as parts of the time up to the deadline.
 fn response_bar(out: &mut String, mean: f64, most: f64) {
     let part = |share: f64| Px(BAR * share.min(1.0));
     let late = if most > 1.0 { " late" } else { "" };
     put!(
         out,
-        "<svg class=\"bar\" viewBox=\"0 0 {w} 14\" width=\"{w}\" height=\"14\" role=\"img\"><title>mean {:.0} %, longest {:.0} % of the period</title>",
+        "<svg class=\"bar\" viewBox=\"0 0 {w} 14\" width=\"{w}\" height=\"14\" role=\"img\"><title>mean {:.0} %, longest {:.0} % of the time up to the deadline</title>",
         mean * 100.0,
         most * 100.0,
         w = Px(BAR)
@@ -275,7 +275,7 @@ pub(super) fn channels(out: &mut String, report: &Report) {
         let most = queue.lengths.greatest().map_or(0, |(most, _)| most);
         let kind = queue
             .capacity
-            .map_or("queue".to_owned(), |capacity| format!("queue, {most} of {capacity} places used at most"));
+            .map_or(queue.kind.clone(), |capacity| format!("{}, {most} of {capacity} places used at most", queue.kind));
         channel_head(out, &queue.from, &queue.to, &kind);
         out.push_str("<td class=\"nil\">\u{2013}</td><td class=\"nil\">\u{2013}</td><td class=\"nil\">\u{2013}</td>");
         counters(out, &columns, &queue.counters);

@@ -1,6 +1,7 @@
 //! The axis of time: round numbers, one set of fine lines through all lanes. SYNC(drawing)
 
 use crate::markup::{Px, put};
+use crate::svg::text_width;
 use crate::svg::view::View;
 use crate::time::TimeBase;
 
@@ -37,7 +38,9 @@ pub(crate) fn axis(out: &mut String, view: &View, time: TimeBase, height: f64) {
         put!(lines, "M{} -4V{}", Px(x), Px(height));
         let mut label = format!("{:.3}", tick * time.factor());
         label.truncate(label.trim_end_matches('0').trim_end_matches('.').len());
-        put!(labels, "<text x=\"{}\" y=\"-9\">{label}</text>", Px(x));
+        // A long label at the end stays within the picture.
+        let middle = x.min(view.width - text_width(&label, 11.0) / 2.0);
+        put!(labels, "<text x=\"{}\" y=\"-9\">{label}</text>", Px(middle));
         index += 1;
     }
     put!(out, "<path class=\"grid\" d=\"{lines}\"/>\n<g class=\"ticks\">{labels}");

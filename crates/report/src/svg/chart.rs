@@ -105,7 +105,9 @@ pub(crate) fn profile(report: &Report, series: &Series) -> String {
     let (width, height, head) = (1120.0, 150.0, 24.0);
     let plan = Graph::of_series(report, series);
     let mut view = View::new(0, report.shown.max(1), width);
-    view.left = 52.0;
+    let shown = |value: i64| if plan.ticks { report.time.bare(value) } else { value.to_string() };
+    let labels = [shown(plan.top), shown(plan.low)].map(|label| text_width(&label, 12.0));
+    view.left = labels.into_iter().fold(text_width(report.time.unit(), 11.0) + 20.0, f64::max).max(42.0) + 10.0;
     let mut out = String::new();
     open(&mut out, "profile", width, head + height + 4.0, &format!("{} over the whole run", series.name));
     put!(out, "<g transform=\"translate(0 {head})\">\n");

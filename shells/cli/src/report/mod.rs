@@ -46,7 +46,7 @@ A report specification is a YAML file that says which terms of the model make wh
       robot: { name: robot controller, caption: at each set-point }
     terms:                           # {} stands for the name; an entry above may have its own
       activity: doing({})
-      period: period({})             # ticks; also release, cycles, met, missed, skipped
+      period: period({})             # ticks; also deadline, may_miss, release, cycles, met, missed, skipped
   buffers:
     each:
       frames: { from: camera, to: robot }
@@ -55,6 +55,7 @@ A report specification is a YAML file that says which terms of the model make wh
       reading: reading({})
     counters: { written: written({}) }
   queues:                            # each, terms (length, capacity), counters
+  values:                            # shared values: each, terms (unread), counters
   series:
     Age of data: { caption: at the robot, value: age, unit: ticks, bound: 500 }
   flow:                              # the way of a datum: its identity at each hop
