@@ -45,9 +45,9 @@ TOKEN = re.compile(r"""
   | [0-9][\w.']*
   | <=> | \+\+ | -- | -> | << | >> | && | \|\| | [<>=!+\-*/%&|^]=? | [A-Za-z_]\w* | \S
 """, re.VERBOSE | re.MULTILINE | re.DOTALL)
-OTHERS = {"==": ["!="], "!=": ["=="], "<=": ["<"], ">=": [">"], "&&": ["||"], "||": ["&&"], "++": ["--"], "--": ["++"],
+OTHERS = {"==": ["!="], "!=": ["=="], "<=": ["<"], ">=": [">"], "||": ["&&"], "++": ["--"], "--": ["++"],
           "+=": ["-="], "-=": ["+="], "true": ["false"], "false": ["true"]}
-SPACED = {"<": ["<=", ">="], ">": [">=", "<="], "+": ["-"], "-": ["+"]}
+SPACED = {"<": ["<=", ">="], ">": [">=", "<="], "+": ["-"], "-": ["+"], "&&": ["||"]}
 
 
 def mutants(text):
@@ -61,7 +61,7 @@ def mutants(text):
         elif word.startswith("memory_order_") and word != "memory_order_relaxed":
             others = ["memory_order_relaxed"]
         elif word in SPACED and spaced:
-            # Angle brackets of templates stand without spaces.
+            # Angle brackets of templates stand without spaces, and so do references.
             others = SPACED[word]
         elif word == "!" and text[end:end + 1] not in " =":
             others = [""]
