@@ -146,9 +146,6 @@ class LockedBuffer {
     friend Writing<LockedBuffer>;
     friend Reading<LockedBuffer>;
 
-    static constexpr int producer = 0;
-    static constexpr int consumer = 1;
-
     [[nodiscard]] bool take(Side side, Watchdog& watchdog) noexcept {
         if (observer_.seeded(Fault::lock_not_taken)) {
             return true;
@@ -156,7 +153,7 @@ class LockedBuffer {
         observer_.asks(side);
         Watchdog endless{never_ns / 2};
         Watchdog& bound = observer_.seeded(Fault::watchdog_ignored) ? endless : watchdog;
-        const bool granted = lock_.acquire(side == Side::producer ? producer : consumer, bound);
+        const bool granted = lock_.acquire(static_cast<int>(side), bound);
         if (granted) {
             observer_.enters(side);
         } else {

@@ -55,8 +55,8 @@ class PairLock<MonotonicClock> {
     /// other waits.
     void release() noexcept {
         // SYNC(hand): release, for the way through the system, which is not an atomic operation of this program.
-        handed_.store(handed_.load(std::memory_order_relaxed) + 1, std::memory_order_release);
         std::uint32_t own = thread();
+        handed_.store(own, std::memory_order_release);
         // SYNC(permit): release; pairs with the exchange in is_taken().
         if (!holder_.compare_exchange_strong(own, 0, std::memory_order_release, std::memory_order_relaxed)) {
             Futex::call(holder_, FUTEX_UNLOCK_PI_PRIVATE, 0, never_ns, 0);
@@ -118,7 +118,7 @@ class PairLock<MonotonicClock> {
 
     MonotonicClock& clock_;
     alignas(64) Word holder_{0};  ///< 0, or the holder's number, with the system's mark if the other waits
-    Word handed_{0};
+    Word handed_{0};  ///< the number of the last one that released
 };
 
 }  // namespace groundstate

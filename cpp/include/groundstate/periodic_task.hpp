@@ -118,8 +118,8 @@ class PeriodicTask {
     // On the grid, always.
     std::int64_t next_ns(std::int64_t due_ns, std::int64_t now_ns) noexcept {
         std::int64_t periods = 1;
-        if (period_.late == Late::skip && now_ns > due_ns + period_.period_ns) {
-            const std::int64_t begun = (now_ns - due_ns - 1) / period_.period_ns;
+        if (period_.late == Late::skip) {
+            const std::int64_t begun = (now_ns - due_ns - 1) / period_.period_ns;  // before now, so that the next one is late
             statistics_.periods_skipped.add(begun);
             periods += begun;
         }

@@ -144,7 +144,7 @@ class Semaphore {
                 return false;  // SYNC(permit): the load and the failed exchange are acquires
             }
             const std::uint64_t before = state & ((std::uint64_t{1} << place) - 1);
-            const std::uint64_t behind = place == 56 ? 0 : (state >> (place + 8)) << place;
+            const std::uint64_t behind = (state >> place >> 8) << place;
             if (state_.compare_exchange_weak(state, before | behind, std::memory_order_acquire)) {
                 return true;
             }
