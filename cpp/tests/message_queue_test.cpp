@@ -29,9 +29,11 @@ TEST(MessageQueue, RefusesAndCountsWhatItHasNoRoomFor) {
     EXPECT_TRUE(queue.try_send(1));
     EXPECT_TRUE(queue.try_send(2));
     EXPECT_FALSE(queue.try_send(3));
+    clock.sleep_until_ns(10);
     Watchdog watchdog{40};
     EXPECT_FALSE(queue.send(4, watchdog));
-    EXPECT_EQ(clock.now_ns(), 40);
+    EXPECT_EQ(clock.now_ns(), 50);
+    EXPECT_EQ(watchdog.total_wait_ns(), 40);
     EXPECT_EQ(watchdog.skipped(), 1);
     EXPECT_EQ(queue.refused(), 2);
     EXPECT_EQ(queue.receive(), 1);

@@ -3,6 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <linux/filter.h>
+#include <linux/seccomp.h>
+#include <sys/prctl.h>
+
+#include <bit>
+#include <cstddef>
 #include <thread>
 
 #include "groundstate/realtime.hpp"
@@ -20,18 +26,24 @@ TEST(PairLock, IsGivenUpWhenTheWatchdogEnds) {
     std::thread other{[&] {
         Watchdog none{0};
         EXPECT_FALSE(lock.acquire(1, none));
+        EXPECT_EQ(none.total_wait_ns(), 0) << "not even the time is read";
+        Watchdog least{1};
+        EXPECT_FALSE(lock.acquire(1, least));
+        EXPECT_GT(least.total_wait_ns(), 0);
         Watchdog some{5 * ms};
         const std::int64_t before_ns = clock.now_ns();
         EXPECT_FALSE(lock.acquire(1, some));
-        EXPECT_GE(clock.now_ns() - before_ns, 5 * ms);
-        EXPECT_LE(some.left_ns(), 0);
-        EXPECT_EQ(none.skipped() + some.skipped(), 2);
+        const std::int64_t span_ns = clock.now_ns() - before_ns;
+        EXPECT_GE(span_ns, 5 * ms);
+        EXPECT_LE(some.total_wait_ns(), span_ns);
+        EXPECT_EQ(some.left_ns(), 0);
+        EXPECT_EQ(none.skipped() + least.skipped() + some.skipped(), 3);
     }};
     other.join();
     EXPECT_FALSE(lock.acquire(0, holder)) << "who holds it does not wait for himself";
     lock.release();
-    Watchdog again{ms};
-    EXPECT_TRUE(lock.acquire(1, again));
+    Watchdog none{0};
+    EXPECT_TRUE(lock.acquire(1, none)) << "a free lock costs no waiting";
     lock.release();
 }
 
@@ -52,6 +64,84 @@ TEST(PairLock, HasOneHolder) {
     one.join();
     other.join();
     EXPECT_EQ(inside, 40'000);
+}
+
+// From now on the calling thread, and those that it starts, get this error for that call of the futex, as on another system. False: a
+// thread may not ask for that here.
+bool refuse(std::uint32_t operation, std::uint32_t error) {
+    // The lower half of the second argument.
+    constexpr std::uint32_t argument = offsetof(seccomp_data, args) + 8 + (std::endian::native == std::endian::big ? 4 : 0);
+    std::array<sock_filter, 6> steps{{
+        {BPF_LD | BPF_W | BPF_ABS, 0, 0, offsetof(seccomp_data, nr)},
+        {BPF_JMP | BPF_JEQ | BPF_K, 0, 3, SYS_futex},
+        {BPF_LD | BPF_W | BPF_ABS, 0, 0, argument},
+        {BPF_JMP | BPF_JEQ | BPF_K, 0, 1, operation},
+        {BPF_RET | BPF_K, 0, 0, SECCOMP_RET_ERRNO | error},
+        {BPF_RET | BPF_K, 0, 0, SECCOMP_RET_ALLOW},
+    }};
+    const sock_fprog program{.len = steps.size(), .filter = steps.data()};
+    return prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0 && prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program) == 0;
+}
+
+constexpr std::uint32_t by_monotonic_clock = 13 | FUTEX_PRIVATE_FLAG;
+constexpr std::uint32_t by_calendar = FUTEX_LOCK_PI_PRIVATE;
+
+// On a system that refuses these calls: one task holds the lock until the other has given up waiting, and a little longer.
+void expect_the_lock_is_waited_for(std::initializer_list<std::pair<std::uint32_t, std::uint32_t>> refused) {
+    std::thread{[&] {
+        for (const auto& [operation, error] : refused) {
+            if (!refuse(operation, error)) {
+                std::puts("no permission to refuse calls of the system: its ways of waiting are not looked at");
+                return;
+            }
+        }
+        MonotonicClock clock;
+        PairLock<MonotonicClock> lock{clock};
+        Watchdog holder{60'000 * ms};
+        ASSERT_TRUE(lock.acquire(0, holder));
+        std::atomic<bool> has_given_up{false};
+        int handed = 0;
+        std::thread other{[&] {
+            Watchdog some{5 * ms};
+            const std::int64_t before_ns = clock.now_ns();
+            EXPECT_FALSE(lock.acquire(1, some));
+            EXPECT_GE(clock.now_ns() - before_ns, 5 * ms);
+            EXPECT_EQ(some.skipped(), 1);
+            has_given_up = true;
+            Watchdog patient{60'000 * ms};
+            EXPECT_TRUE(lock.acquire(1, patient));
+            EXPECT_EQ(handed, 1) << "what was done under the lock is seen";
+            lock.release();
+        }};
+        while (!has_given_up) {
+            std::this_thread::yield();
+        }
+        // So that the other one most probably waits.
+        clock.sleep_until_ns(clock.now_ns() + 2 * ms);
+        handed = 1;
+        lock.release();
+        EXPECT_TRUE(lock.acquire(0, holder));
+        lock.release();
+        other.join();
+    }}.join();
+}
+
+TEST(PairLock, IsWaitedForByTheCalendarWhereTheSystemHasNoOtherWay) {
+    expect_the_lock_is_waited_for({{by_monotonic_clock, ENOSYS}});
+    expect_the_lock_is_waited_for({{by_monotonic_clock, EINVAL}});
+}
+
+TEST(PairLock, IsPolledWhereTheSystemHasNoSuchLock) {
+    expect_the_lock_is_waited_for({{by_monotonic_clock, ENOSYS}, {by_calendar, ENOSYS}});
+}
+
+TEST(PairLock, IsNotWaitedForByTheCalendarWhereTheSystemHasAnotherWay) {
+    Word word{0};
+    if (Futex::call(word, static_cast<int>(by_monotonic_clock), 0, never_ns, 0) != 0) {
+        std::puts("Linux before 5.14 has no other way");
+        return;
+    }
+    expect_the_lock_is_waited_for({{by_calendar, EPERM}});
 }
 
 // On one processor: the least urgent task holds the lock, the most urgent one waits for it, and one between them would run

@@ -140,6 +140,23 @@ TEST_F(PeriodicTaskTest, SkipsPeriodsThatHaveBegun) {
     EXPECT_EQ(statistics->periods_skipped.value(), 3);
 }
 
+// Done at the very instant when a cycle is due, or just after it.
+TEST(PeriodicTasks, APeriodHasBegunOnceTheCycleIsNotDoneWhenItIsDue) {
+    const auto skipped = [](std::int64_t duration_ns) {
+        VirtualClock clock{2};
+        std::unique_ptr<PeriodicTask<VirtualClock>> task;
+        const Statistics* statistics = nullptr;
+        const Instants begun =
+            begins({.period_ns = 10, .late = Late::skip}, {2, duration_ns, 2}, 55, &statistics, task, clock);
+        return std::pair{statistics->periods_skipped.value(), begun[2]};
+    };
+    using Skipped = std::pair<std::int64_t, std::int64_t>;
+    EXPECT_EQ(skipped(10), (Skipped{0, 20}));
+    EXPECT_EQ(skipped(11), (Skipped{1, 30}));
+    EXPECT_EQ(skipped(20), (Skipped{1, 30}));
+    EXPECT_EQ(skipped(21), (Skipped{2, 40}));
+}
+
 TEST_F(PeriodicTaskTest, ADeadlineMayComeBeforeTheEndOfThePeriod) {
     run({.period_ns = 10, .deadline_ns = 3}, {3, 4}, 35);
     EXPECT_EQ(statistics->deadlines_met.value(), 1);
@@ -228,8 +245,31 @@ TEST(AsynchronousTask, IsWokenByDataAndNeverPolls) {
     robot.stop();
     EXPECT_EQ(servoed, (std::vector<std::int64_t>{0, 10, 20, 30, 40}));
     EXPECT_EQ(servoing.statistics().cycles.value(), 5) << "not once in vain";
+    EXPECT_EQ(servoing.statistics().worst_duration_ns.value(), 3 * ms);
     EXPECT_EQ(reached, (std::vector<std::uint64_t>{1, 2, 3, 4, 5}));
     EXPECT_EQ(camera.statistics().deadlines_missed.value(), 0);
+}
+
+TEST(AsynchronousTask, ItsCyclesAreNumberedAndDueWhenTheyBegin) {
+    VirtualClock clock{2};
+    std::vector<std::int64_t> begun;
+    AsynchronousTask task{clock, "eager", 7, [] { return true; }, [&](const Cycle& cycle) {
+        EXPECT_EQ(cycle.number, static_cast<std::int64_t>(begun.size()));
+        EXPECT_EQ(cycle.start_ns, clock.now_ns());
+        EXPECT_EQ(cycle.deadline_ns, never_ns);
+        EXPECT_EQ(cycle.watchdog.left_ns(), 7) << "anew in each cycle";
+        EXPECT_TRUE(cycle.rested);
+        begun.push_back(cycle.start_ns);
+        cycle.watchdog.waited(2);
+        clock.sleep_until_ns(clock.now_ns() + 10);
+    }};
+    task.start();
+    clock.enter(1);
+    clock.sleep_until_ns(25);
+    task.ask_to_stop();
+    clock.leave();
+    task.stop();
+    EXPECT_EQ(begun, (Instants{0, 10, 20})) << "from the first instant on, if it is given no origin";
 }
 
 TEST(AsynchronousTask, StopsWhileItRests) {
@@ -256,6 +296,34 @@ TEST(AsynchronousTask, BeginsAtTheOrigin) {
     }
     task.stop();
     EXPECT_GE(first_ns, origin_ns);
+}
+
+// The thread's name is known only if it has at most 15 letters.
+TEST(RealTime, AThreadHasTheBeginningOfItsTasksName) {
+    MonotonicClock clock;
+    std::array<char, 32> name{};
+    AsynchronousTask task{clock, "a name of twenty-nine letters", ms, [&] { return name[0] == 0; }, [&](const Cycle&) {
+        pthread_getname_np(pthread_self(), name.data(), name.size());
+    }};
+    EXPECT_EQ(task.thread().name(), "a name of twenty-nine letters");
+    task.start();
+    while (task.statistics().cycles.value() == 0) {
+        std::this_thread::yield();
+    }
+    task.stop();
+    EXPECT_STREQ(name.data(), "a name of twent");
+}
+
+// Nothing but the state says that the failure may be asked.
+TEST(RealTime, WhoSeesThatATaskFailedSeesWhy) {
+    MonotonicClock clock;
+    PeriodicTask task{clock, "failing", {.period_ns = ms}, [](const Cycle&) { throw std::runtime_error{"no arm"}; },
+                      {.failed = [](const std::string&, const std::exception_ptr&) {}}};
+    task.start(clock.now_ns());
+    while (task.thread().state() != TaskState::faulted) {
+        std::this_thread::yield();
+    }
+    EXPECT_EQ(reason_of(task.thread().failure()), "no arm");
 }
 
 TEST(RealTime, BothKindsOfTaskRun) {
