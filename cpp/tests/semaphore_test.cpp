@@ -42,6 +42,29 @@ TEST(Semaphore, WaitsExactlyAsLongAsTheWatchdogAllows) {
     EXPECT_TRUE(semaphore.acquire(1, watchdog)) << "who gave up is no longer in line";
 }
 
+// Counts how often the time is read.
+struct CountingClock : VirtualClock {
+    std::int64_t now_ns() const noexcept {
+        ++reads;
+        return VirtualClock::now_ns();
+    }
+    mutable int reads = 0;
+};
+
+TEST(Semaphore, ReadsTheTimeOnlyToWait) {
+    CountingClock clock;
+    Semaphore semaphore{clock};
+    Watchdog never_waits{0};
+    EXPECT_TRUE(semaphore.acquire(0, never_waits));
+    EXPECT_FALSE(semaphore.acquire(1, never_waits));
+    EXPECT_EQ(clock.reads, 0);
+    Watchdog least{1};
+    EXPECT_FALSE(semaphore.acquire(1, least));
+    EXPECT_GT(clock.reads, 0);
+    EXPECT_EQ(clock.now_ns(), 1);
+    EXPECT_EQ(least.total_wait_ns(), 1);
+}
+
 TEST(Semaphore, CountsReleasesOfNobody) {
     VirtualClock clock;
     Semaphore semaphore{clock};
@@ -83,6 +106,44 @@ TEST(Semaphore, ServesInTheOrderOfArrival) {
     }
     EXPECT_EQ(served, "0-4251o");
     EXPECT_EQ(semaphore.permits(), 1);
+}
+
+// User 0 has the permit and asks for another one when the six others stand in line. The last and the first of the seven give up.
+TEST(Semaphore, ItsLineHasRoomForAllUsers) {
+    VirtualClock clock{7};
+    Semaphore semaphore{clock};
+    std::string served;
+    std::vector<std::thread> users;
+    for (int user = 0; user < 7; ++user) {
+        users.emplace_back([&, user] {
+            clock.enter(user);
+            clock.sleep_until_ns(user);
+            Watchdog watchdog{user == 1 ? 50 : 10'000};
+            if (user == 0) {
+                EXPECT_TRUE(semaphore.acquire(user, watchdog));
+                clock.sleep_until_ns(10);
+                Watchdog once_more{20};
+                EXPECT_FALSE(semaphore.acquire(user, once_more));
+                clock.sleep_until_ns(100);
+                semaphore.release();
+            } else if (semaphore.acquire(user, watchdog)) {
+                served += std::to_string(user);
+                semaphore.release();
+            } else {
+                EXPECT_EQ(clock.now_ns(), 51);
+                served += '-';
+            }
+            clock.leave();
+        });
+    }
+    for (std::thread& user : users) {
+        user.join();
+    }
+    EXPECT_EQ(served, "-23456");
+    EXPECT_EQ(semaphore.permits(), 1);
+    EXPECT_EQ(semaphore.illegal_releases(), 0);
+    Watchdog watchdog{0};
+    EXPECT_DEATH((void)semaphore.acquire(7, watchdog), "user < users");
 }
 
 }  // namespace

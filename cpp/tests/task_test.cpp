@@ -164,11 +164,58 @@ TEST_F(PeriodicTaskTest, ADeadlineMayComeBeforeTheEndOfThePeriod) {
     EXPECT_EQ(statistics->overruns.value(), 0);
 }
 
+TEST_F(PeriodicTaskTest, ADeadlineMayComeAtOnce) {
+    run({.period_ns = 10, .deadline_ns = 1}, {1, 2}, 35);
+    EXPECT_EQ(statistics->deadlines_met.value(), 1);
+    EXPECT_EQ(statistics->deadlines_missed.value(), 3);
+}
+
+TEST(PeriodicTasks, KnowWhenACycleWasDueAndMustBeDone) {
+    VirtualClock clock{2};
+    PeriodicTask<VirtualClock> task{clock, "task", {.period_ns = 10, .offset_ns = 3, .deadline_ns = 6}, [&](const Cycle& cycle) {
+        EXPECT_EQ(cycle.start_ns, 10 * cycle.number + 3);
+        EXPECT_EQ(cycle.deadline_ns, 10 * cycle.number + 9);
+        clock.sleep_until_ns(clock.now_ns() + (cycle.number == 1 ? 15 : 2));
+    }};
+    task.start(0);
+    clock.enter(1);
+    clock.sleep_until_ns(45);
+    task.ask_to_stop();
+    clock.leave();
+    task.stop();
+    EXPECT_EQ(task.statistics().cycles.value(), 5);
+}
+
+// Where virtual time follows a model, what a cycle does within a tick takes no time.
+TEST(PeriodicTasks, CountTimeByWholeGrains) {
+    VirtualClock clock{2};
+    PeriodicTask<VirtualClock> task{clock, "task", {.period_ns = 100}, [&](const Cycle& cycle) {
+        clock.sleep_until_ns(clock.now_ns() + (cycle.number == 0 ? 27 : 139));
+    }, {.grain_ns = 10}};
+    task.start(0);
+    clock.enter(1);
+    clock.sleep_until_ns(205);
+    task.ask_to_stop();
+    EXPECT_EQ(task.statistics().worst_duration_ns.value(), 20) << "until the clock shows 27";
+    clock.sleep_until_ns(250);
+    clock.leave();
+    task.stop();
+    EXPECT_EQ(task.statistics().worst_duration_ns.value(), 130) << "from 100 to 239";
+    EXPECT_EQ(task.statistics().worst_lateness_ns.value(), 0);
+}
+
 TEST(PeriodicTask, TheWatchdogsBudgetIsWhatThePeriodLeaves) {
     MonotonicClock clock;
     const PeriodicTask task{clock, "t", {.period_ns = 10, .elaboration_ns = 7}, [](const Cycle&) {}};
     EXPECT_EQ(task.watchdog().budget_ns(), 3);
     EXPECT_EQ(task.thread().state(), TaskState::built);
+}
+
+TEST(PeriodicTask, HasNoTimeOfItsOwnUnlessItIsGiven) {
+    MonotonicClock clock;
+    EXPECT_DEATH(PeriodicTask(clock, "t", {}, [](const Cycle&) {}), "period_ns > 0");
+    const PeriodicTask task{clock, "t", {.period_ns = 10}, [](const Cycle&) {}};
+    EXPECT_EQ(task.watchdog().budget_ns(), 10) << "its work takes none";
 }
 
 TEST(PeriodicTask, WorkThatDoesNotFitLeavesNothingToWait) {

@@ -118,7 +118,7 @@ class PairLock<MonotonicClock> {
 
     MonotonicClock& clock_;
     alignas(64) Word holder_{0};  ///< 0, or the holder's number, with the system's mark if the other waits
-    Word handed_{0};  ///< the number of the last one that released
+    Word handed_{};  ///< the number of the last one that released
 };
 
 }  // namespace groundstate
