@@ -44,6 +44,20 @@ struct PeriodicTaskTest : testing::Test {
     }
 };
 
+TEST(Tasks, AskForNothingUnlessTheyAreTold) {
+    const Schedule schedule;
+    EXPECT_EQ(schedule.rank, 0);
+    EXPECT_EQ(schedule.grain_ns, 1);
+    EXPECT_TRUE(schedule.counts_lateness);
+    EXPECT_EQ(schedule.realtime.priority, 0);
+    EXPECT_LT(schedule.realtime.processor, 0);
+    Watchdog watchdog{0};
+    const Cycle cycle{.watchdog = watchdog};
+    EXPECT_EQ(cycle.number, 0);
+    EXPECT_EQ(cycle.start_ns, 0);
+    EXPECT_EQ(cycle.deadline_ns, never_ns);
+    EXPECT_TRUE(cycle.rested);
+}
 
 TEST_F(PeriodicTaskTest, KeepsItsGridAndOffset) {
     EXPECT_EQ(run({.period_ns = 10, .offset_ns = 3}, {4}, 45), (Instants{3, 13, 23, 33, 43}));

@@ -36,6 +36,8 @@ TEST(Watchdog, EachCycleHasTheWholeBudgetButForItsLateness) {
     EXPECT_EQ(watchdog.total_wait_ns(), 120);
     watchdog.restart(130);
     EXPECT_EQ(watchdog.left_ns(), 0);
+    watchdog.waited(80);
+    EXPECT_EQ(watchdog.longest_wait_ns(), 80) << "from nothing in each cycle";
 }
 
 TEST(Watchdog, AWaitTakesWholeGrains) {

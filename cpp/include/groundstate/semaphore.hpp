@@ -137,15 +137,17 @@ class Semaphore {
 
     // False if it was too late: the permit has been handed over.
     bool leave_line(int user) noexcept {
-        std::uint64_t state = state_.load(std::memory_order_acquire);
         for (;;) {
+            // SYNC(permit): acquire, pairs with the exchange in release() that took the user out of the line.
+            std::uint64_t state = state_.load(std::memory_order_acquire);
             const int place = place_of(state, user);
             if (place == 64) {
-                return false;  // SYNC(permit): the load and the failed exchange are acquires
+                return false;
             }
             const std::uint64_t before = state & ((std::uint64_t{1} << place) - 1);
             const std::uint64_t behind = (state >> place >> 8) << place;
-            if (state_.compare_exchange_weak(state, before | behind, std::memory_order_acquire)) {
+            // relaxed, as asking: whoever leaves takes nothing over.
+            if (state_.compare_exchange_weak(state, before | behind, std::memory_order_relaxed)) {
                 return true;
             }
         }
@@ -158,7 +160,7 @@ class Semaphore {
     }
 
     struct alignas(64) Calls {
-        Word count{0};
+        Word count{};
     };
 
     C& clock_;

@@ -6,6 +6,7 @@
 // end.
 #pragma once
 
+#include <algorithm>
 #include <cassert>
 
 #include "clock.hpp"
@@ -30,13 +31,11 @@ class Watchdog {
     }
 
     /// What is left of the budget. Who: the task. Blocks: no.
-    std::int64_t left_ns() const noexcept { return spent_ns_ < budget_ns_ ? budget_ns_ - spent_ns_ : 0; }
+    std::int64_t left_ns() const noexcept { return std::max<std::int64_t>(budget_ns_ - spent_ns_, 0); }
 
     /// Takes a wait off the budget. Who: the task. Blocks: no.
     void waited(std::int64_t span_ns) noexcept {
-        if (grain_ns_ > 1) {
-            span_ns = (span_ns + grain_ns_ - 1) / grain_ns_ * grain_ns_;
-        }
+        span_ns = (span_ns + grain_ns_ - 1) / grain_ns_ * grain_ns_;
         waited_ns_ += span_ns;
         spent_ns_ += span_ns;
         total_wait_ns_.add(span_ns);
