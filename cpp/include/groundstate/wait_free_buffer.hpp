@@ -10,6 +10,7 @@
 #pragma once
 
 #include <array>
+#include <numeric>
 #include <type_traits>
 
 #include "observer.hpp"
@@ -27,9 +28,7 @@ class WaitFreeBuffer {
     using Datum = T;
 
     explicit WaitFreeBuffer(C& clock, Observer observer = {}) : observer_{observer}, clock_{clock} {
-        for (std::size_t i = 0; i < kept; ++i) {
-            held_[i] = static_cast<Index>(i + 2);
-        }
+        std::iota(held_.begin(), held_.end(), Index{2});
     }
 
     WaitFreeBuffer(const WaitFreeBuffer&) = delete;
