@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <memory>
+#include <optional>
+#include <thread>
 #include <vector>
 
 #include "groundstate/virtual_clock.hpp"
@@ -67,6 +69,27 @@ TEST(MessageQueue, ASenderWaitsForRoomAndIsWoken) {
     sender.join();
     receiver.join();
     EXPECT_EQ(received, (std::vector<int>{0, 1, 2, 3, 4, 5}));
+}
+
+// Both ask again and again, so that nothing but the queue orders what they do.
+TEST(MessageQueue, ASlotBelongsToOneOfThemAtATime) {
+    MonotonicClock clock;
+    MessageQueue<int, 1, MonotonicClock> queue{clock};
+    std::thread sender{[&] {
+        for (int message = 1; message <= 100; ++message) {
+            while (!queue.try_send(message)) {
+                std::this_thread::yield();
+            }
+        }
+    }};
+    for (int message = 1; message <= 100; ++message) {
+        std::optional<int> received;
+        while (!(received = queue.receive())) {
+            std::this_thread::yield();
+        }
+        ASSERT_EQ(*received, message);
+    }
+    sender.join();
 }
 
 TEST(MessageQueue, TakesWhatCannotBeCopied) {

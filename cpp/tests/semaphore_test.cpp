@@ -5,6 +5,7 @@
 
 #include <memory>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "groundstate/virtual_clock.hpp"
@@ -63,6 +64,59 @@ TEST(Semaphore, ReadsTheTimeOnlyToWait) {
     EXPECT_GT(clock.reads, 0);
     EXPECT_EQ(clock.now_ns(), 1);
     EXPECT_EQ(least.total_wait_ns(), 1);
+}
+
+// The time of a user that waits until 10. When it asks for the second time, after its last look at the line, the other one releases.
+// Nothing is ordered by that.
+struct LateClock {
+    std::int64_t now_ns() const noexcept {
+        if (asked++ == 0) {
+            return 0;
+        }
+        may_release.store(true, std::memory_order_relaxed);
+        while (!is_released.load(std::memory_order_relaxed)) {
+            std::this_thread::yield();
+        }
+        return 10;
+    }
+    void sleep_until_ns(std::int64_t) noexcept {}
+    void wait_while(Word&, std::uint32_t, std::int64_t) noexcept {}
+    void wake(Word&) noexcept {}
+    void enter(int) noexcept {}
+    void leave() noexcept {}
+
+    mutable int asked = 0;
+    mutable std::atomic<bool> may_release{false};
+    std::atomic<bool> is_released{false};
+};
+
+TEST(Semaphore, WhoGivesUpAtTheMomentOfTheGrantHasThePermit) {
+    LateClock clock;
+    Semaphore semaphore{clock};
+    std::atomic<bool> is_held{false};
+    int handed = 0;
+    std::thread holder{[&] {
+        Watchdog watchdog{0};
+        EXPECT_TRUE(semaphore.acquire(0, watchdog));
+        is_held.store(true, std::memory_order_relaxed);
+        while (!clock.may_release.load(std::memory_order_relaxed)) {
+            std::this_thread::yield();
+        }
+        handed = 1;
+        semaphore.release();
+        clock.is_released.store(true, std::memory_order_relaxed);
+    }};
+    while (!is_held.load(std::memory_order_relaxed)) {
+        std::this_thread::yield();
+    }
+    Watchdog watchdog{10};
+    EXPECT_TRUE(semaphore.acquire(1, watchdog));
+    EXPECT_EQ(handed, 1) << "what was done with the permit is seen";
+    EXPECT_EQ(watchdog.skipped(), 0);
+    EXPECT_EQ(watchdog.total_wait_ns(), 10);
+    semaphore.release();
+    holder.join();
+    EXPECT_EQ(semaphore.permits(), 1);
 }
 
 TEST(Semaphore, CountsReleasesOfNobody) {
