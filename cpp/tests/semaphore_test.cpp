@@ -66,6 +66,29 @@ TEST(Semaphore, ReadsTheTimeOnlyToWait) {
     EXPECT_EQ(least.total_wait_ns(), 1);
 }
 
+// Both ask again and again, so that nothing but the semaphore orders what they do.
+TEST(Semaphore, WhatWasDoneWithThePermitIsSeenByTheNextHolder) {
+    MonotonicClock clock;
+    Semaphore semaphore{clock};
+    int done = 0;
+    const auto work = [&](int user) {
+        Watchdog watchdog{0};
+        for (int i = 0; i < 100; ++i) {
+            while (!semaphore.acquire(user, watchdog)) {
+                std::this_thread::yield();
+            }
+            ++done;
+            semaphore.release();
+            std::this_thread::yield();
+        }
+    };
+    std::thread one{work, 0};
+    std::thread other{work, 1};
+    one.join();
+    other.join();
+    EXPECT_EQ(done, 200);
+}
+
 // The time of a user that waits until 10. When it asks for the second time, after its last look at the line, the other one releases.
 // Nothing is ordered by that.
 struct LateClock {

@@ -56,6 +56,13 @@ TEST(Account, IsOfNothingAtFirst) {
     }
 }
 
+TEST(Array, HoldsNothingAtFirst) {
+    const Array<int> array;
+    EXPECT_EQ(array.datum, 0);
+    EXPECT_EQ(array.sequence, 0U);
+    EXPECT_EQ(array.stamp_ns, 0);
+}
+
 TYPED_TEST(SwingingBufferTest, IsASwingingBuffer) { static_assert(SwingingBuffer<TypeParam>); }
 
 TYPED_TEST(SwingingBufferTest, GivesNothingBeforeTheFirstHandOver) {
