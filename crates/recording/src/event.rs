@@ -166,8 +166,13 @@ impl Event {
 
     /// The event in words: `writes camera_to_vs, number 3, array 1`.
     pub fn words(&self) -> String {
-        let mut text = format!("{} {}", self.kind, self.object);
+        let nothing = self.number == 0 && matches!(self.kind, Kind::Reads | Kind::Takes | Kind::Loads);
+        let mut text = match nothing {
+            true => format!("finds {} empty", self.object),
+            false => format!("{} {}", self.kind, self.object),
+        };
         match self.kind {
+            _ if nothing => {}
             Kind::Begins | Kind::Ends | Kind::Passes | Kind::Meets | Kind::Misses | Kind::Faults => {
                 text += &format!(", cycle {}", self.number);
             }
@@ -182,10 +187,31 @@ impl Event {
             }
         }
         match self.fresh {
+            // Nothing is not new anyway.
+            Some(false) if nothing => {}
             Some(true) => text += ", new",
             Some(false) => text += ", not new",
             None => {}
         }
         text
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn words() {
+        let check = |kind: Kind, number: u64, fresh: Option<bool>, expect: &str| {
+            let event = Event { kind, number, fresh, object: "codes".into(), ..Event::default() };
+            assert_eq!(event.words(), expect);
+        };
+        check(Kind::Takes, 3, None, "takes codes, number 3");
+        check(Kind::Takes, 0, None, "finds codes empty");
+        check(Kind::Loads, 0, Some(false), "finds codes empty");
+        check(Kind::Reads, 2, Some(false), "reads codes, number 2, not new");
+        check(Kind::Stores, 0, None, "stores codes, number 0");
+        check(Kind::Begins, 0, None, "begins codes, cycle 0");
     }
 }
