@@ -59,7 +59,7 @@ fn plain(text: &str) -> Detail {
 
 /// When a component runs, and its phases.
 fn about(component: &Component, system: &System) -> Vec<Detail> {
-    let mut lines = vec![plain(&words::timing(component, system.tick_ns))];
+    let mut lines = vec![plain(&words::timing(component, system))];
     let drawn = component.phases.chunk_by(|one, next| one.drawn == next.drawn);
     for (phase, times) in drawn.map(|phases| (&phases[0], phases.len())) {
         let what = match phase.action {

@@ -71,15 +71,16 @@ pub fn duration(phase: &Phase, tick_ns: u64) -> String {
 }
 
 /// When a component runs, and what of its deadlines it may miss.
-pub fn timing(component: &Component, tick_ns: u64) -> String {
-    let mut text = runs(component.timing, tick_ns);
+pub fn timing(component: &Component, system: &System) -> String {
+    let mut text = runs(component.timing, system);
     if let Some(one) = component.tolerance {
         let _ = write!(text, ", misses {} of {}", one.missed, one.cycles);
     }
     text
 }
 
-fn runs(timing: Timing, tick_ns: u64) -> String {
+fn runs(timing: Timing, system: &System) -> String {
+    let tick_ns = system.tick_ns;
     match timing {
         Timing::Synchronous { period, jitter, offset, deadline } => {
             let mut text = format!("synchronous, {}", time(period, tick_ns));
@@ -94,7 +95,10 @@ fn runs(timing: Timing, tick_ns: u64) -> String {
             }
             text
         }
-        Timing::Asynchronous { .. } => "asynchronous".to_string(),
+        Timing::Asynchronous { awaits: Some(channel) } => {
+            format!("asynchronous, awaits {}", system.channels[channel].drawn)
+        }
+        Timing::Asynchronous { awaits: None } => "asynchronous, again and again".to_string(),
     }
 }
 
@@ -130,7 +134,7 @@ pub fn masters(system: &System, drawn: &[Channel]) -> Vec<String> {
 pub fn of_system(system: &System) -> String {
     let mut out = format!("System {}.", system.name);
     for component in &system.components {
-        let _ = write!(out, " {}: {}.", component.text, timing(component, system.tick_ns));
+        let _ = write!(out, " {}: {}.", component.text, timing(component, system));
     }
     for one in &system.channels {
         let (from, to) = (&system.components[one.from].text, &system.components[one.to].text);
