@@ -41,7 +41,7 @@ pub use chart::{
     Arrow, Chart, Composite, Control, End, Layout, Machine, Parameter, Pattern, Refinement, Shape, ShapeId, ShapeKind,
     WORDS,
 };
-pub use check::{Probed, built_faults, check, probed};
+pub use check::{Probed, built_faults, check, probed, stateless};
 pub use computing::{ComponentMachine, Computing, Content, Feed, Take};
 pub use dump::dump;
 pub use export::scxml_of;

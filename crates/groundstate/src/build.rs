@@ -52,7 +52,8 @@ fn built(
             return None;
         }
     };
-    let unbuilt = chart::unbuilt(chart, &known);
+    let mut unbuilt = chart::unbuilt(chart, &known);
+    unbuilt.extend(chart::stateless(chart));
     if !unbuilt.is_empty() {
         faults.push((sources.clone(), unbuilt));
         return None;

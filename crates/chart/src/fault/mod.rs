@@ -350,6 +350,17 @@ pub(crate) fn empty_chart(span: Span) -> Diagnostic {
         .with_help("write a `machine`, a `pattern` or a `system`")
 }
 
+/// A machine that would have a control variable without values.
+pub(crate) fn empty_machine(span: Span, name: &str) -> Diagnostic {
+    Diagnostic::error(
+        "empty-chart",
+        span,
+        format!("the machine `{name}` has no control state: there is nothing to build"),
+    )
+    .here("its control variable would have no value")
+    .with_help("write its states: `initial state idle` is the first one")
+}
+
 /// A system whose imports lack the patterns that it is built from.
 pub(crate) fn no_patterns(span: Span, missing: &str) -> Diagnostic {
     Diagnostic::error(

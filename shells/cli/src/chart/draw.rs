@@ -91,9 +91,7 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     let all = draw::drawings(&chart);
     let machines: Vec<_> = all.iter().filter(|drawing| wanted(drawing.name())).collect();
     if machines.is_empty() {
-        let names: Vec<&str> = all.iter().map(Drawing::name).collect();
-        let help = format!("it has: {}", names.join(", "));
-        return Err(Failure::usage_with_help("the chart has no such machine", help));
+        return Err(super::nothing_drawn(&all));
     }
     let ending = arguments.output.as_deref().and_then(Form::of);
     let form = arguments.form.or(ending).unwrap_or(Form::Svg);

@@ -54,6 +54,9 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     let texts = drawings.iter().filter(|drawing| wanted(drawing.name()));
     let texts: Vec<_> = texts.filter_map(|drawing| Some((drawing.name(), draw::export(drawing, notation)?))).collect();
     if texts.is_empty() {
+        if !drawings.iter().any(|drawing| wanted(drawing.name())) {
+            return Err(super::nothing_drawn(&drawings));
+        }
         return Err(Failure::usage("the chart has nothing of this name in this notation"));
     }
     let Some(folder) = &arguments.output else {

@@ -75,6 +75,18 @@ pub fn read(shell: &mut Shell, path: &Path) -> Result<Result<(Sources, Chart), E
     Ok(Ok((sources, chart)))
 }
 
+/// Why no drawing is meant: the chart has none at all, or none of the name that `--machine` gives.
+fn nothing_drawn(all: &[::draw::Drawing]) -> Failure {
+    if all.is_empty() {
+        return Failure::usage_with_help(
+            "the chart has no machine and no system: there is nothing to draw",
+            "write a `machine`, a `pattern` or a `system`, or name the chart that has it",
+        );
+    }
+    let names: Vec<&str> = all.iter().map(::draw::Drawing::name).collect();
+    Failure::usage_with_help("the chart has no such machine", format!("it has: {}", names.join(", ")))
+}
+
 /// Refuses a model or a scenario, whatever it contains.
 fn is_chart(path: &Path) -> Result<(), Failure> {
     match path.extension().and_then(|extension| extension.to_str()) {

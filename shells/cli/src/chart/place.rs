@@ -33,9 +33,7 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     let wanted = |name: &str| arguments.machine.as_ref().is_none_or(|machine| machine == name);
     let drawings = draw::drawings(&chart);
     if !drawings.iter().any(|drawing| wanted(drawing.name())) {
-        let names: Vec<&str> = drawings.iter().map(draw::Drawing::name).collect();
-        let help = format!("it has: {}", names.join(", "));
-        return Err(Failure::usage_with_help("the chart has no such machine", help));
+        return Err(super::nothing_drawn(&drawings));
     }
     let file = syntax::FileId(0);
     let text = &sources.file(file).text;
