@@ -69,12 +69,14 @@ pub(crate) fn late_response(
     deadline: &str,
     processors: u64,
 ) -> Diagnostic {
-    let message = match certain {
-        true => format!("`{name}` misses its deadline of {deadline} on {}: {reason}", on(processors)),
-        false => format!("`{name}` may miss its deadline of {deadline} on {}: {reason}", on(processors)),
+    // That it is late for certain is known of more urgent tasks alone. Otherwise nobody knows what keeps it waiting, if anything does.
+    let (misses, cause) = match certain {
+        true => ("misses", "more urgent tasks keep it waiting"),
+        false => ("may miss", "the analysis does not show that it ends in time"),
     };
+    let message = format!("`{name}` {misses} its deadline of {deadline} on {}: {reason}", on(processors));
     Diagnostic::warning("late-response", span, message)
-        .here("more urgent tasks and locks keep it waiting")
+        .here(cause)
         .with_help("`groundstate chart times` shows the times of all tasks; shorten phases, or use more processors")
 }
 
