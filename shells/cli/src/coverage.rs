@@ -20,8 +20,11 @@ pub fn report(shell: &mut Shell, model: &str, sources: &Sources, items: &Items) 
     writeln!(shell.out(), "\ncoverage of {model}")?;
     for (kind, coverage) in items.totals() {
         let (covered, total) = (coverage.covered, coverage.total);
-        if let Some(percent) = (100 * covered).checked_div(total) {
-            writeln!(shell.out(), "  {kind:<9} {covered:>4} of {total:<4} {percent:>3} %")?;
+        if total > 0 {
+            // Less than all is less than 100 %, however it is rounded.
+            let percent = 100.0 * covered as f64 / total as f64;
+            let percent = if covered < total { percent.min(99.9) } else { percent };
+            writeln!(shell.out(), "  {kind:<9} {covered:>4} of {total:<4} {percent:>5.1} %")?;
         }
     }
     let uncovered = uncovered(sources, items);
