@@ -115,7 +115,8 @@ pub struct Arguments {
     /// Then tell what the properties that hold depend on, and which functions and updates none of them depends on
     #[arg(long)]
     coverage: bool,
-    /// Write counterexamples: a scenario (FILE.avalla), a trace (FILE.trace), or both for each violation into a folder
+    /// Write counterexamples: a scenario (FILE.avalla), a trace (FILE.trace), or both for each violation into a folder; of a
+    /// CHART, scenarios alone
     #[arg(long, value_name = "PATH")]
     counterexample: Option<PathBuf>,
     #[command(flatten)]
@@ -200,6 +201,14 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     {
         let about = "is about the properties of a model: verify the machines of a chart's system one by one";
         return Err(Failure::usage(format!("{option} {about}")));
+    }
+    let ending = arguments.counterexample.as_ref().and_then(|path| path.extension()?.to_str());
+    if is_chart && ending == Some("trace") {
+        let help = "name a FILE.avalla for the first one, or a folder for all; the model of `groundstate chart build` has traces";
+        return Err(Failure::usage_with_help(
+            "a counterexample of a chart is written as a scenario, not as a trace",
+            help,
+        ));
     }
     let rest = if is_chart { Some(without_proved(shell, arguments)?) } else { None };
     let arguments = rest.as_ref().unwrap_or(arguments);
