@@ -299,9 +299,11 @@ function Player({ studio, played }: { studio: Studio; played: NonNullable<Return
           <tbody>
             {[...frame.state].map(([location, value]) => (
               <tr key={location} className={frame.changed.has(location) ? 'changed' : undefined}>
-                <th scope="row">{location}</th>
-                <td>{value}</td>
-                <td className="before">{frame.changed.has(location) ? `${words.run.was} ${frame.changed.get(location)}` : ''}</td>
+                <th scope="row" title={location}>
+                  {location}
+                </th>
+                <td title={value}>{value}</td>
+                <td className="before" title={frame.changed.get(location)}>{frame.changed.has(location) ? `${words.run.was} ${frame.changed.get(location)}` : ''}</td>
               </tr>
             ))}
           </tbody>

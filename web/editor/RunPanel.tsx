@@ -314,9 +314,11 @@ function Table({ session }: { session: SessionState }): ReactNode {
           <tbody>
             {all.slice(0, ROWS).map((row) => (
               <tr key={`${row.location}${row.before === null ? '' : session.step}`} className={row.before === null ? undefined : 'changed'}>
-                <th scope="row">{row.location}</th>
-                <td>{row.value}</td>
-                <td className="before">{row.before !== null && row.before !== row.value ? `${words.run.was} ${row.before}` : ''}</td>
+                <th scope="row" title={row.location}>
+                  {row.location}
+                </th>
+                <td title={row.value}>{row.value}</td>
+                <td className="before" title={row.before ?? undefined}>{row.before !== null && row.before !== row.value ? `${words.run.was} ${row.before}` : ''}</td>
               </tr>
             ))}
           </tbody>
@@ -346,7 +348,7 @@ function Changes({ studio, session }: { studio: Studio; session: SessionState })
       )}
       <h3>{words.run.changed}</h3>
       <div className="scroll" tabIndex={0}>
-        {session.updates.length === 0 && <p className="faint-note">{words.run.noChange}</p>}
+        {session.updates.length === 0 && <p className="faint-note">{session.step === 0 ? words.run.noStep : words.run.noChange}</p>}
         <ul>
           {session.updates.map((update) => (
             <li key={update.location}>
