@@ -21,8 +21,9 @@ pub(crate) const NAMESPACE: &str = "urn:groundstate:chart";
 
 /// The SCXML of a machine.
 pub fn scxml_of(chart: &Chart, machine: &Machine) -> String {
-    let machine = machine.flat();
-    let initial = match machine.initial() {
+    // The first shapes of the flat machine are those of the drawn one, which knows in which state it begins.
+    let (initial, machine) = (machine.initial(), machine.flat());
+    let initial = match initial {
         Some(id) if !machine.is_pattern => machine.shape(id).name.as_str(),
         _ => "enter",
     };

@@ -99,6 +99,51 @@ endpattern
 }
 
 #[test]
+fn a_machine_with_composite_states() {
+    let before = chart(
+        "chart C
+machine m
+	control c
+	initial state off
+	composite state on
+		history
+		exit lampOff
+		initial state slow
+		state fast
+	endstate
+	guard up
+	guard stop
+	action note to refine by later
+	action halt
+	sequence note, halt
+	off -> up yes -> on
+	slow -> fast
+	on -> stop yes -> note -> halt -> off
+endmachine
+",
+    );
+    let document = scxml_of(&before, &before.machines[0]);
+    let back = scxml(FileId(0), &document, "Back");
+    assert_eq!(back.diagnostics, []);
+    let text = back.text.expect("no errors");
+    let after = chart(&text);
+    // One of each for each state that is left; what they do is written once, and refined once.
+    for part in [
+        "guard stop2 \"Stop\" {stop}",
+        "action note \"Note\" to refine by later",
+        "action note2 \"Note\" {r_note[]}\n",
+        "action halt2 \"Halt\" {r_halt[]}",
+        "sequence note, note2, halt, halt2",
+    ] {
+        assert!(text.contains(part), "{part} is missing in\n{text}");
+    }
+    assert_eq!(
+        chart::transitions(&after, &after.machines[0]).len(),
+        chart::transitions(&before, &before.machines[0]).len()
+    );
+}
+
+#[test]
 fn a_change_in_another_tool_is_kept() {
     let text = "chart C machine m control x initial state a state b guard g {ready} action f {r_f[]} a -> g yes -> f -> b endmachine";
     let before = chart(text);

@@ -308,12 +308,25 @@ fn read(text: &str) -> Chart {
     chart
 }
 
-/// The built model, and its text.
-fn built(chart: &Chart, acts: &str) -> (Arc<Program>, String) {
+/// The chart that SCXML of its machine reads back as, with its patterns.
+fn exchanged(chart: &Chart) -> Chart {
+    let document = chart::scxml_of(chart, &chart.machines[0]);
+    let imported = chart::import::scxml(FileId(0), &document, "Nested");
+    assert_eq!(imported.diagnostics, [], "{document}");
+    let text = imported.text.expect("there are no errors");
+    let mut patterns = Chart { machines: chart.machines[1..].to_vec(), ..chart.clone() };
+    patterns.imports.clear();
+    let own = text.lines().filter(|line| !line.starts_with("import"));
+    let patterns = chart::write(&patterns);
+    read(&own.chain(patterns.lines().skip(1)).collect::<Vec<_>>().join("\n"))
+}
+
+/// The built model, and its text. What is in the present text besides is kept.
+fn built(chart: &Chart, acts: &str, present: Option<&str>) -> (Arc<Program>, String) {
     let mut loader = Texts::of([("Acts.asm", acts)]);
     let text = "module Imports\nimport Acts\nimport StandardLibrary\nsignature:\ndefinitions:\n";
     let known = model::check(SourceFile::new("Imports.asm", text), &mut loader);
-    let text = chart::build(chart, &Known::of(&known.model), None).expect("there was no file").text;
+    let text = chart::build(chart, &Known::of(&known.model), present).expect("what is there was built").text;
     let loaded = groundstate::load(SourceFile::new("Nested.asm", text.as_str()), &mut loader);
     (loaded.unwrap_or_else(|faulty| panic!("{:#?}\n{text}", faulty.diagnostics)).program, text)
 }
@@ -344,13 +357,18 @@ impl Judge<'_> {
 fn runs(seed: u64, seen: &mut BTreeMap<&'static str, usize>) {
     let (text, acts) = Made::of(seed);
     let chart = read(&text);
-    let (program, built) = built(&chart, &acts);
+    let (program, text_built) = built(&chart, &acts, None);
+    // The function that remembers where a state was left is in the model; SCXML has the tests of it.
+    let (again, _) = built(&exchanged(&chart), &acts, Some(&text_built));
+    let built = text_built;
     let drawn = &chart.machines[0];
     let mut dice = Dice(seed | 1 << 40);
     for _ in 0..4 {
         let mut machine = Machine::new(Arc::clone(&program), Limits::default());
         let none = Open::new();
         machine.start(&mut Given(&none)).expect("nothing is asked");
+        let mut other = Machine::new(Arc::clone(&again), Limits::default());
+        other.start(&mut Given(&none)).expect("nothing is asked");
         let first = drawn.initial().expect("there is an initial state");
         let place = Place { leaf: first, task: None, left: BTreeMap::new() };
         let mut judge = Judge { drawn, place, times: BTreeMap::new() };
@@ -360,6 +378,7 @@ fn runs(seed: u64, seen: &mut BTreeMap<&'static str, usize>) {
             let open: Open = guards.map(|guard| (guard.name.clone(), dice.throw(3) == 0)).collect();
             let before = judge.place.clone();
             let made = judge.step(&open);
+            assert_eq!(other.step(&mut Given(&open)).is_ok(), made, "seed {seed}: of SCXML\n{text}");
             match machine.step(&mut Given(&open)) {
                 Ok(_) => assert!(made, "seed {seed}: two paths contradict each other\n{text}\n{built}"),
                 Err(fault) => {
@@ -370,6 +389,7 @@ fn runs(seed: u64, seen: &mut BTreeMap<&'static str, usize>) {
                 }
             }
             assert_eq!(state(&machine), judge.state(), "seed {seed}, from {before:?}, {open:?}\n{text}\n{built}");
+            assert_eq!(state(&other), judge.state(), "seed {seed}: of SCXML, from {before:?}, {open:?}\n{text}");
             let aborted = before.task.is_some() && judge.place.leaf != before.leaf;
             *seen.entry("aborts").or_default() += usize::from(aborted);
             *seen.entry("memories").or_default() += usize::from(judge.place.left != before.left);

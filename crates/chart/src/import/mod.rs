@@ -6,6 +6,7 @@
 mod names;
 mod scxml;
 mod tree;
+mod ways;
 
 pub use scxml::scxml;
 

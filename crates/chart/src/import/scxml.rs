@@ -5,7 +5,9 @@
 //! leads through the `no` exits of those before it. An event becomes a guard that is true when the event comes; a
 //! condition in AsmetaL becomes a guard, too. Text in another language becomes the text of a shape to be refined. A
 //! transition executes, in sequence, the exit actions, its own actions and the entry actions. What our own export wrote
-//! is read back shape by shape. SYNC(scxml): `export.rs`.
+//! is read back shape by shape (`own`).
+
+mod own;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
@@ -16,10 +18,12 @@ use syntax::{Diagnostic, FileId, Severity, Span};
 use super::Imported;
 use super::names::{Names, bare, function};
 use super::tree::{States, is, is_scxml, machines, place, text_of};
-use crate::export::{NAMESPACE, condition, script};
+use super::ways::Way;
+use crate::export::NAMESPACE;
 use crate::fault::foreign as fault;
 use crate::read::spoken;
 use crate::write::quoted;
+use own::Own;
 
 /// Reads an SCXML document; `name` is the chart's name, `file` identifies the text in faults.
 pub fn scxml(file: FileId, text: &str, name: &str) -> Imported {
@@ -115,22 +119,15 @@ struct Reader<'d, 'f> {
     /// The names of the flat states in the chart.
     called: BTreeMap<usize, String>,
     shapes: String,
-    sequences: String,
+    sequences: Vec<Vec<String>>,
     paths: String,
+    /// Paths of our own export.
+    ways: Vec<Way>,
     /// Functions and rules for texts in another language.
     foreign: BTreeMap<(&'static str, String), String>,
     /// Charts of the invoked patterns.
     imports: BTreeSet<String>,
     faults: &'f mut Vec<Diagnostic>,
-}
-
-/// A guard or action of our own export.
-struct Own {
-    is_guard: bool,
-    /// Its declaration, which is used if a path contains the shape.
-    declaration: String,
-    /// The text that it stands for.
-    text: String,
 }
 
 impl<'d, 'f> Reader<'d, 'f> {
@@ -145,8 +142,9 @@ impl<'d, 'f> Reader<'d, 'f> {
             names: Names::default(),
             called: BTreeMap::new(),
             shapes: String::new(),
-            sequences: String::new(),
+            sequences: Vec::new(),
             paths: String::new(),
+            ways: Vec::new(),
             foreign: BTreeMap::new(),
             imports: BTreeSet::new(),
             faults,
@@ -176,41 +174,13 @@ impl<'d, 'f> Reader<'d, 'f> {
         if let Some(control) = control {
             let _ = writeln!(out, "control {control}");
         }
-        let _ = writeln!(out, "{}{}{}end{word}", self.shapes, self.sequences, self.paths);
-        out
-    }
-
-    /// The guards, actions and sequences that our own export declares.
-    fn declared(&mut self) -> BTreeMap<String, Own> {
-        let mut found = BTreeMap::new();
-        for node in self.document.children().filter(|node| node.tag_name().namespace() == Some(NAMESPACE)) {
-            let word = node.tag_name().name();
-            let plain = |name: &str| node.attribute(name).map(str::to_string);
-            if let (true, Some(names)) = (word == "sequence", plain("names")) {
-                let _ = writeln!(self.sequences, "sequence {names}");
-                continue;
-            }
-            let Some(name) = plain("name").filter(|_| ["guard", "action", "instance"].contains(&word)) else {
-                continue;
-            };
-            let name = self.names.fresh(&name);
-            let before = self.shapes.len();
-            self.shape(word, &name, &plain);
-            // An instance is declared at once, since it may stand beside all paths; other shapes only if a path
-            // contains them.
-            let declaration = if word == "instance" { String::new() } else { self.shapes.split_off(before) };
-            let made = if word == "guard" { function(&name) } else { format!("r_{name}[]") };
-            let parameters = self.document.attribute((NAMESPACE, "parameters")).unwrap_or_default();
-            let words = parameters.split(|letter: char| letter.is_whitespace() || "(),".contains(letter));
-            let variables: Vec<&str> = words.filter(|word| word.starts_with('$')).collect();
-            let made = match (word, variables.is_empty()) {
-                (_, true) => made,
-                ("guard", _) => format!("{made}({})", variables.join(", ")),
-                _ => format!("r_{name}[{}]", variables.join(", ")),
-            };
-            found.insert(name, Own { is_guard: word == "guard", declaration, text: plain("link").unwrap_or(made) });
+        let ways = self.ways(&declared);
+        let _ = write!(out, "{}", self.shapes);
+        for sequence in &self.sequences {
+            let _ = writeln!(out, "sequence {}", sequence.join(", "));
         }
-        found
+        let _ = writeln!(out, "{ways}{}end{word}", self.paths);
+        out
     }
 
     /// Declares a shape with its attributes.
@@ -382,58 +352,6 @@ impl<'d, 'f> Reader<'d, 'f> {
         }
     }
 
-    /// Restores a transition of our own export, unless it has been changed since.
-    fn own(
-        &mut self,
-        transition: Node<'d, 'd>,
-        is_pattern: bool,
-        from: &str,
-        declared: &BTreeMap<String, Own>,
-    ) -> bool {
-        let Some(path) = transition.attribute((NAMESPACE, "path")) else {
-            // A path without guards and actions has no attribute `path`.
-            let bare = transition.attribute("cond").is_none() && !transition.children().any(|child| child.is_element());
-            let event = transition.attribute("event").is_none_or(|event| event.starts_with("done.invoke."));
-            let ours = self.document.attribute((NAMESPACE, "kind")).is_some();
-            let target = transition.attribute("target").and_then(|id| self.states.named(id));
-            return match target.filter(|_| ours && bare && event) {
-                Some(target) => {
-                    let _ = writeln!(self.paths, "{from} -> {}", self.stop(target, is_pattern));
-                    true
-                }
-                None => false,
-            };
-        };
-        let (mut tests, mut rules) = (Vec::new(), Vec::new());
-        for stop in path.split(',').map(str::trim) {
-            let (name, branch) = match stop.rsplit_once(' ') {
-                Some((name, branch)) => (name, Some(branch == "yes")),
-                None => (stop, None),
-            };
-            match (declared.get(name), branch) {
-                (Some(own), Some(holds)) if own.is_guard => tests.push(condition(&own.text, holds)),
-                (Some(own), None) if !own.is_guard => rules.push(own.text.clone()),
-                _ => return false,
-            }
-        }
-        let written = transition.attribute("cond").unwrap_or_default();
-        let done: Vec<String> = transition.children().filter(|child| child.is_element()).map(text_of).collect();
-        let rules = rules.iter().map(|rule| rule.split_whitespace().collect::<Vec<_>>().join(" ")).collect::<Vec<_>>();
-        let target = transition.attribute("target").and_then(|id| self.states.named(id));
-        let Some(target) = target.filter(|_| written == tests.join(" and ") && done == Vec::from_iter(script(&rules)))
-        else {
-            return false;
-        };
-        for own in path.split([',', ' ']).filter_map(|name| declared.get(name)) {
-            if !self.shapes.contains(&own.declaration) {
-                self.shapes.push_str(&own.declaration);
-            }
-        }
-        let stops = path.split(',').map(str::trim).collect::<Vec<_>>().join(" -> ");
-        let _ = writeln!(self.paths, "{from} -> {stops} -> {}", self.stop(target, is_pattern));
-        true
-    }
-
     /// Continues the paths from some stops.
     fn lead(&mut self, from: &mut Vec<String>, to: &str) {
         for from in from.drain(..) {
@@ -530,7 +448,7 @@ impl<'d, 'f> Reader<'d, 'f> {
             actions.extend(self.handlers(state, "onentry"));
         }
         if actions.len() > 1 {
-            let _ = writeln!(self.sequences, "sequence {}", actions.join(", "));
+            self.sequences.push(actions.clone());
         }
         Some((actions, self.stop(leaf, is_pattern)))
     }
