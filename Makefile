@@ -74,7 +74,7 @@ full: ## what is slow and rarely breaks, beside `make test`: larger samples, the
 	@$(TIMED) --begin
 	$(MAKE) --no-print-directory test
 	GROUNDSTATE_FULL=1 $(LINTED) $(CARGO) test --workspace --locked --no-fail-fast
-	$(MAKE) --no-print-directory msrv verify cpp-full robot-full mutants studio-full
+	$(MAKE) --no-print-directory msrv verify cpp-full robot-full mutants cpp-mutants studio-full
 	@$(TIMED)
 
 quick: $(TESTED) ## what a one-line change needs: lints, the tests that are over in a moment, the library's scenarios
@@ -137,9 +137,9 @@ mutants: ## mutated texts through every command, every fifth change of an event 
 	$(CARGO) xtask mutate-text
 	$(CARGO) xtask mutate-log --every 5
 
-cpp-mutants: ## small faults in the C++ runtime, every fifth of them: its tests and ThreadSanitizer notice each that is not listed
+cpp-mutants: ## small faults in the C++ runtime: its tests and ThreadSanitizer notice each that is not listed; every Nth with EVERY=N
 	sh cpp/install.sh libgtest-dev
-	python3 cpp/mutate.py --every $(or $(EVERY),5)
+	python3 cpp/mutate.py --every $(or $(EVERY),1)
 
 # cargo-mutants is not installed here: it would be one more program for one check.
 rust-mutants: ## small faults in the semantics, the search and `conform`, judged by their tests, if cargo-mutants is there: hours
