@@ -60,8 +60,8 @@ function lightCharts(run, drawing, timeline) {
     moment = Math.min(Math.max(Math.floor(tick), 0), run.shown - 1);
     if (moment === before) return;
     slider.value = moment;
-    slider.setAttribute("aria-valuetext", `${timed(moment)}, step ${moment + 1}`);
-    now.textContent = `${timed(moment)}, step ${moment + 1}`;
+    slider.setAttribute("aria-valuetext", `${timed(moment)}, step ${moment + run.first}`);
+    now.textContent = `${timed(moment)}, step ${moment + run.first}`;
     light(moment);
     timeline.place(moment);
     const [from, to] = timeline.window();

@@ -22,7 +22,10 @@ pub(super) fn run_data(report: &Report) -> String {
     let mut out = String::new();
     let time = report.time;
     put!(out, "{{\"unit\":{},\"factor\":{},\"decimals\":{},", Json(time.unit()), time.factor(), time.decimals());
-    put!(out, "\"shown\":{},\"window\":{},\"height\":{},\n\"kinds\":[", report.shown, report.window, Px(height));
+    // After so many steps is the state that the first tick shows.
+    let first = u8::from(!report.from_initial);
+    put!(out, "\"first\":{first},\"shown\":{},\"window\":{},", report.shown, report.window);
+    put!(out, "\"height\":{},\n\"kinds\":[", Px(height));
     for (index, kind) in kinds.iter().enumerate() {
         put!(out, "{}[{},\"{}\"]", comma(index), Json(&kind.label), kind.tone.name());
     }
