@@ -379,8 +379,8 @@ impl Series {
 }
 
 impl Measure {
-    /// The share that was covered, in percent; nothing to cover is covered.
+    /// The share that was covered, in percent; nothing to cover is covered. Less than all is less than 100.0, however it is rounded.
     pub fn percent(&self) -> f64 {
-        if self.total == 0 { 100.0 } else { self.covered as f64 * 100.0 / self.total as f64 }
+        if self.covered >= self.total { 100.0 } else { (self.covered as f64 * 100.0 / self.total as f64).min(99.9) }
     }
 }

@@ -110,7 +110,11 @@ fn scenarios(out: &mut String, report: &Report) {
 }
 
 fn coverage(out: &mut String, report: &Report) {
-    let Some(measure) = report.coverage.as_ref().and_then(|coverage| coverage.measures.first()) else { return };
+    let Some(measure) =
+        report.coverage.as_ref().and_then(|coverage| coverage.measures.first().filter(|measure| measure.total > 0))
+    else {
+        return;
+    };
     let remark = format!("{} of {} {}", count(measure.covered), count(measure.total), Text(&measure.what));
-    figure(out, "Coverage", &format!("{:.0}\u{202f}%", measure.percent().floor()), &remark, false);
+    figure(out, "Coverage", &format!("{:.1}\u{202f}%", measure.percent()), &remark, false);
 }

@@ -96,14 +96,19 @@ fn scenario_item(out: &mut String, scenario: &Scenario) {
     if !what.is_empty() {
         put!(out, "<span>{}</span> ", Text(what));
     }
-    put!(out, "<small>{} checks, {} steps</small></li>\n", count(scenario.checks), count(scenario.steps));
+    let (checks, steps) = (counted(scenario.checks, "check"), counted(scenario.steps, "step"));
+    put!(out, "<small>{checks}, {steps}</small></li>\n");
+}
+
+fn counted(number: u64, what: &str) -> String {
+    format!("{} {what}{}", count(number), if number == 1 { "" } else { "s" })
 }
 
 /// Writes what was executed and what was not.
 pub(super) fn coverage(out: &mut String, report: &Report) {
     let Some(coverage) = &report.coverage else { return };
     section(out, "coverage", "Coverage", &coverage.scope);
-    for measure in &coverage.measures {
+    for measure in coverage.measures.iter().filter(|measure| measure.total > 0) {
         bar(out, measure);
     }
     out.push_str("</section>\n");

@@ -183,7 +183,8 @@ fn verdicts(lines: &mut Table, report: &Report) {
         let measures: Vec<String> = coverage
             .measures
             .iter()
-            .map(|m| format!("{} {:.0} % ({} of {})", m.what, m.percent().floor(), count(m.covered), count(m.total)))
+            .filter(|m| m.total > 0)
+            .map(|m| format!("{} {:.1} % ({} of {})", m.what, m.percent(), count(m.covered), count(m.total)))
             .collect();
         lines.row(vec!["Coverage".to_owned(), measures.join(", ")]);
     }
