@@ -37,8 +37,20 @@ pub fn question(program: &Program, plan: &Plan) -> u64 {
     let Program { function_lists, procedures, main, initials, agents, properties, .. } = program;
     let Plan { settings, assumed, terminal, wanted, wanted_steps, storage, seed, partial_order, .. } = plan;
     // What makes the steps is no part of the question, nor what a search has compiled, nor who may interrupt it.
-    let Settings { limits, bounds, conditions, step_conditions, read_in_steps, .. } = settings;
-    let Settings { forgetful: _, engine: _, code: _, numbered, interrupt: _, observed, unordered, .. } = settings;
+    let Settings {
+        limits,
+        bounds,
+        conditions,
+        step_conditions,
+        read_in_steps,
+        forgetful: _,
+        engine: _,
+        code: _,
+        numbered,
+        interrupt: _,
+        observed,
+        unordered,
+    } = settings;
     hash(&[
         &(domains, functions, constants, terms, term_lists, rules, rule_lists, binder_lists),
         &(function_lists, procedures, main, initials, agents, properties),
