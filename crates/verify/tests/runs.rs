@@ -409,3 +409,21 @@ fn a_formula_at_fault_leaves_the_others_their_verdicts() {
     assert_eq!(*said[1], OfRuns::Holds);
     assert!(matches!(said[2], OfRuns::Violated(_)));
 }
+
+/// Who moves is chosen until nobody can; then a step that chooses nobody changes the state again and again. No run ends there.
+#[test]
+fn a_step_that_chooses_nobody_is_told() {
+    let program = model(
+        "enum domain Who = {LEFT | RIGHT} domain Small subsetof Integer controlled n: Small controlled rest: Boolean",
+        "domain Small = {0 : 3} LTLSPEC ltlSpec_always: f(g(rest)) LTLSPEC ltlSpec_never: g(not rest) \
+         main rule r_Main = choose $w in Who with n < 3 do n := n + 1 ifnone rest := not rest \
+         default init s0: function n = 0 function rest = false",
+    );
+    let plan = RunPlan { agents: Some(AgentFairness::Weak), ..unlimited() };
+    let decided = decide(&program, &plan, &mut |_| true).expect("there is an initial state");
+    for (index, answer) in decided {
+        let OfRuns::Violated(trace) = answer else { panic!("{index}: {answer:?}") };
+        assert!(!trace.ends && trace.steps.iter().all(|step| !step.changes.is_empty()), "{index}: {trace:?}");
+        assert!(trace.steps.len() > 3, "{index}: {trace:?}");
+    }
+}

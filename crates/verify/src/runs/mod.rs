@@ -344,19 +344,23 @@ impl Explored {
         trace
     }
 
-    /// The first alternative that an edge of the graph represents; none if the edge says that the run stays where it has no step.
+    /// The first alternative that an edge of the graph represents; none if the run stays because no alternative leads anywhere.
     fn step(&mut self, from: u32, to: u32, edge: usize) -> Option<Told> {
         let (state, letter) = self.nodes[from as usize];
         let target: Box<[u64]> = self.states.get(self.nodes[to as usize].0).into();
         let state: Box<[u64]> = self.states.get(state).into();
         let label = self.graph.label(edge);
         let chosen = self.choices.get(label.0 as usize);
-        let letters = &self.letters;
+        let (letters, scheduler) = (&self.letters, self.scheduler);
         let mut picks = None;
         // A successor that does not fit would have been reported before.
-        let _ = self.explorer.paths_until(&state, &mut |path| {
+        let tried = self.explorer.paths_until(&state, &mut |path| {
             let leads = match &path.outcome {
-                Came::Next(next) => label != Label::STUTTER && *next == target,
+                // A step that does not choose who moves has no label either.
+                Came::Next(next) => {
+                    let moves = path.choices.iter().any(|choice| Some(choice.span) == scheduler);
+                    *next == target && (label != Label::STUTTER || scheduler.is_some() && !moves)
+                }
                 Came::Fault(_) => label == Label::STUTTER,
                 Came::Unbounded(_) | Came::Excluded => false,
             };
@@ -367,6 +371,12 @@ impl Explored {
             }
             ControlFlow::Continue(())
         });
-        picks.map(|picks| self.explorer.tell(&state, &picks))
+        match picks {
+            Some(picks) => Some(self.explorer.tell(&state, &picks)),
+            // The graph has such an edge where a state has no step, and all alternatives were tried. Any other edge that none makes is a
+            // fault of the graph: such a run is not made again.
+            None if label == Label::STUTTER && from == to && matches!(tried, Ok(true)) => None,
+            None => Some(Told::default()),
+        }
     }
 }

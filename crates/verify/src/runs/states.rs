@@ -68,6 +68,8 @@ pub struct Explored {
     pub states: Numbered,
     /// What tells the nodes of one state apart.
     pub(super) letters: Letters,
+    /// The rule that chooses who moves, if edges are labelled with its choice.
+    pub(super) scheduler: Option<Span>,
     /// For each label: the choice.
     pub choices: Vec<Vec<Value>>,
     /// For each proposition: a state in which it has no truth value, if there is one.
@@ -499,6 +501,7 @@ impl<'s> Exploration<'s> {
             nodes,
             states: self.states,
             letters: self.letters,
+            scheduler: self.source.scheduler,
             choices: self.choices,
             undecided: self.undecided,
             stop: self.stop,
