@@ -149,11 +149,12 @@ impl Verifiable {
         let loaded = load_as(name, drawn)?;
         let ground = load_as(format!("{folder}{}.asm", chart.name), ground)?;
         let machines = |chart: &Chart| chart.system.as_ref().map_or(0, |system| system.computing.machines.len());
-        let whole = match chart::build(&chart, &known, None) {
-            Ok(built) if machines(&part) < machines(&chart) => {
-                Some(load_as(format!("{folder}{}.asm", chart.name), built.text)?)
-            }
-            _ => None,
+        let whole = match machines(&part) < machines(&chart) {
+            false => None,
+            true => match chart::build(&chart, &known, None) {
+                Ok(built) => Some(load_as(format!("{folder}{}.asm", chart.name), built.text)?),
+                Err(faults) => return Err(vec![(Sources::default(), faults)]),
+            },
         };
         let data = chart::kept(&part);
         Ok(Box::new(VerifiedSystem { chart, part, data, loaded, general, warnings, ground, whole }))
@@ -399,11 +400,22 @@ impl VerifiedSystem {
         Ok(out)
     }
 
-    /// A counterexample as a run of the model that `chart build` writes, with its program; none if that would be the run of the verified
-    /// model, or if it was not made.
-    pub fn whole_run(&self, limits: &Limits, asked: &Program, trace: &Trace) -> Option<(&Program, Trace)> {
-        let whole = &self.whole.as_ref()?.program;
-        whole_run(whole, limits, asked, trace).map(|made| (&**whole, made))
+    /// A counterexample as a run of the model that `chart build` writes, with its program; none if no machine was left out, since it is
+    /// the run of the verified model then.
+    ///
+    /// # Errors
+    /// No inputs were found with which the machines that were left out make the run; in words.
+    pub fn whole_run(
+        &self,
+        limits: &Limits,
+        asked: &Program,
+        trace: &Trace,
+    ) -> Result<Option<(&Program, Trace)>, &'static str> {
+        let Some(whole) = &self.whole else { return Ok(None) };
+        let made = whole_run(&whole.program, limits, asked, trace);
+        let made =
+            made.ok_or("machines were left out of the search, and no inputs were found with which they make this run")?;
+        Ok(Some((&*whole.program, made)))
     }
 
     /// Whether a run of the ground model checks the property by itself.

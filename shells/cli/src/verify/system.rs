@@ -273,8 +273,14 @@ fn script(
     model: &str,
 ) -> String {
     let whole = system.whole_run(limits, program, trace);
-    let run = whole.as_ref().map_or((program, trace), |(whole, made)| (*whole, made));
-    let text = groundstate::counterexample_scenario(run.0, run.1, subject, &name.replace('-', "_"), model);
+    let run = match &whole {
+        Ok(Some((whole, made))) => (*whole, made),
+        Ok(None) | Err(_) => (program, trace),
+    };
+    let mut text = groundstate::counterexample_scenario(run.0, run.1, subject, &name.replace('-', "_"), model);
+    if let Err(reason) = &whole {
+        text.push_str(&format!("\n// {reason}\n"));
+    }
     match system.scenario_property((program, sources), subject) {
         Some(property) if !system.is_checked(program, subject) => with_invariant(&text, &property),
         _ => text,
