@@ -56,7 +56,7 @@ expect 0 sh viewers/run.sh "$out/controller.mcap"
 compile_by clang++ "$out/controller" -Wsign-conversion -fsyntax-only
 
 # Tasks that data wake, behind writings of several ticks: the program wakes when the model does.
-for form in "Classifier" "Handover" "Conveyor" "Conveyor --wait-free"; do
+for form in "Classifier" "Handover" "Conveyor" "Conveyor --wait-free" "Fusion" "Fusion --wait-free"; do
     name=${form% *}
     folder=$out/$(echo "$form" | tr -d ' ')
     expect 0 "$groundstate" generate cpp ${form#"$name"} $name.chart -o "$folder"
@@ -68,6 +68,27 @@ for form in "Classifier" "Handover" "Conveyor" "Conveyor --wait-free"; do
     expect 0 "$groundstate" conform $name.asm "$folder/run.mcap"
     expect "0 3" "$folder/program" --real 0.2 --log "$folder/run.mcap"
     expect "0 3" "$groundstate" conform $name.asm "$folder/run.mcap"
+done
+# A task that starts when one of its data has come, though its model needs all, is found, and so is the other way round: by what its
+# recording says of it, and, where that is the model's, by when its cycles begin.
+for swap in all/any any/all; do
+    folder=$out/swapped
+    rm -rf "$folder"
+    mkdir "$folder"
+    sed -e "s|import ../../|import $(realpath ../..)/|" -e "s/awaits ${swap%/*} /awaits ${swap#*/} /" Fusion.chart >"$folder/Fusion.chart"
+    expect 0 "$groundstate" generate cpp "$folder/Fusion.chart" -o "$folder"
+    compile "$folder" -O0
+    expect 0 "$folder/program" --virtual 0.5 --log "$folder/run.mcap"
+    expect 2 "$groundstate" conform Fusion.asm "$folder/run.mcap"
+    said "the recording is of another system: .* awaits ${swap#*/} "
+    sed -i "s/\.awaits = \"[a-z]* \(frames\)/.awaits = \"all \1/; s/\.awaits = \"[a-z]* \(fixes\)/.awaits = \"any \1/" "$folder/generated/fusion.hpp"
+    compile "$folder" -O0
+    expect 0 "$folder/program" --virtual 0.5 --log "$folder/run.mcap"
+    expect 1 "$groundstate" conform Fusion.asm "$folder/run.mcap"
+    case $swap in
+        # Cycles that begin too late are no difference in the order of events.
+        all/any) expect 1 "$groundstate" conform --untimed Fusion.asm "$folder/run.mcap" && said "still waits for data" ;;
+    esac
 done
 # What a chart bounds: the program counts what its model counts. It tells so at its end, in its log, in the report and beside the verdict.
 watched=$out/watched

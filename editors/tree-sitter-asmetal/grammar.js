@@ -507,7 +507,7 @@ module.exports = grammar({
       ),
     component_kind: ($) =>
       choice(
-        seq("asynchronous", optional(seq("awaits", $._identifier))),
+        seq("asynchronous", optional($.awaits)),
         seq(
           "synchronous",
           "period",
@@ -518,6 +518,7 @@ module.exports = grammar({
           optional($.tolerance),
         ),
       ),
+    awaits: ($) => seq("awaits", choice($._identifier, seq(choice("all", "any"), several($._identifier)))),
     phase: ($) =>
       seq(
         choice("read", "elaborate", "write"),

@@ -38,10 +38,13 @@ signature:
 	// ticks the action takes, without the waiting for a lock
 	controlled time: SchedulePhase -> Integer
 	controlled nextPhase: SchedulePhase -> SchedulePhase
-	// buffer, queue or value worked on; for a waiting phase of an asynchronous task: the one whose data it awaits
+	// buffer, queue or value worked on; for a waiting phase of an asynchronous task: the one whose data it awaits, if it is one
 	controlled sharedMemory: SchedulePhase -> SwingingBuffer
 	controlled messageQueue: SchedulePhase -> MessageQueue
 	controlled sharedValue: SchedulePhase -> SharedValue
+	// of a waiting phase that awaits several channels: the phases that read them, and whether all of these need something new, or one
+	controlled awaited: SchedulePhase -> Powerset(SchedulePhase)
+	controlled awaitsAll: SchedulePhase -> Boolean
 	// the dashed action block of the diagrams, refined by the application
 	controlled elaborationRule: SchedulePhase -> Rule(Scheduler)
 	// The phase that manages the indexes of a buffer. A function: no buffer can have two masters.
@@ -54,6 +57,7 @@ signature:
 
 	derived syncPriority: SchedulePhase -> SyncPriority
 	derived scheduler_currentScheduleTime: Scheduler -> Integer
+	derived channelHasNew: SchedulePhase -> Boolean
 	derived dataAvailable: SchedulePhase -> Boolean
 	derived trigger: Scheduler -> Boolean
 	derived tElapsed: Scheduler -> Boolean
@@ -72,7 +76,7 @@ definitions:
 
 	// An asynchronous task that awaits nothing is always ready to start. A datum not handed over yet
 	// counts for a reader that is the master, as it can swap.
-	function dataAvailable($p in SchedulePhase) =
+	function channelHasNew($p in SchedulePhase) =
 		if isDef(sharedMemory($p)) then
 			sb_newestSequence(sharedMemory($p)) != sb_receivedSequence(sharedMemory($p))
 			or (sb_pending(sharedMemory($p)) and action(sb_master(sharedMemory($p))) = READING_FROM_SB)
@@ -81,6 +85,18 @@ definitions:
 				not mq_isEmpty(messageQueue($p))
 			else
 				if isDef(sharedValue($p)) then sv_isNew(sharedValue($p)) else true endif
+			endif
+		endif
+
+	// What a waiting phase awaits is there; of another phase: its channel has something new.
+	function dataAvailable($p in SchedulePhase) =
+		if isUndef(awaited($p)) then
+			channelHasNew($p)
+		else
+			if awaitsAll($p) then
+				(forall $q in awaited($p) with channelHasNew($q))
+			else
+				(exist $q in awaited($p) with channelHasNew($q))
 			endif
 		endif
 

@@ -60,7 +60,7 @@ definitions:
 				and task_cycles(task) = increment(ends)
 				and task_deadlinesMet(task) = increment(ends and isSynchronous)
 			// a value that comes in the tick in which the one before is loaded, is new
-			if action(one) = LOADING or awaits = LEVEL then
+			if action(one) = LOADING or awaitsLevel then
 				if levelComes then
 					levelIsNew := true
 				endif

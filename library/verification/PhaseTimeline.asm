@@ -15,7 +15,7 @@ export *
 signature:
 	domain Sort subsetof PhaseAction
 	domain Few subsetof Integer
-	enum domain Awaited = {NOTHING | MAIL | LEVEL}
+	enum domain Awaited = {NOTHING | MAIL | LEVEL | BOTH | EITHER}
 
 	static actor: Scheduler
 	static task: Task
@@ -26,12 +26,15 @@ signature:
 	static one: SchedulePhase
 	static two: SchedulePhase
 	static rest: SchedulePhase
+	// what `rest` awaits of two channels: phases that read them, beside the cycle
+	static byMail: SchedulePhase
+	static byLevel: SchedulePhase
 
 	// asked for in the initial state
 	monitored kind: TaskKind
 	monitored sort: Sort
 	monitored hasSecond: Boolean
-	monitored awaited: Awaited
+	monitored waitsFor: Awaited
 	monitored patience: Few
 	monitored hasSlack: Boolean
 
@@ -63,6 +66,8 @@ signature:
 	controlled ends: Boolean
 
 	derived isSynchronous: Boolean
+	derived awaitsMail: Boolean
+	derived awaitsLevel: Boolean
 	derived hasTime: Boolean
 	derived isOverdue: Boolean
 	static lengthOf: PhaseAction -> Integer
@@ -75,6 +80,12 @@ definitions:
 
 	function isSynchronous =
 		task_kind(task) = SYNCHRONOUS
+
+	function awaitsMail =
+		awaits = MAIL or awaits = BOTH or awaits = EITHER
+
+	function awaitsLevel =
+		awaits = LEVEL or awaits = BOTH or awaits = EITHER
 
 	function hasTime =
 		not isSynchronous or waited < mayWait
@@ -95,7 +106,7 @@ definitions:
 	// Of the other ends only those move that the task looks at.
 	rule r_others =
 		par
-			if action(one) = RECEIVING or awaits = MAIL then
+			if action(one) = RECEIVING or awaitsMail then
 				if mailComes then
 					r_mq_send[inbox]
 				endif
@@ -105,7 +116,7 @@ definitions:
 					r_mq_receive[outbox]
 				endif
 			endif
-			if action(one) = LOADING or awaits = LEVEL then
+			if action(one) = LOADING or awaitsLevel then
 				if levelComes then
 					r_sv_write[level]
 				endif
@@ -187,6 +198,8 @@ definitions:
 						switch awaits
 							case MAIL: $hasMail
 							case LEVEL: levelIsNew
+							case BOTH: $hasMail and levelIsNew
+							case EITHER: $hasMail or levelIsNew
 							otherwise true
 						endswitch) then
 				r_begin[$hasMail]

@@ -1,5 +1,6 @@
 /* The phases of one task, to the tick, whatever is at the other ends of its channels: it elaborates, sends, receives, stores or loads, and
-   then elaborates or not, in both kinds of task. It begins with its period, with a message, with a new value, or at once. Each tick it is
+   then elaborates or not, in both kinds of task. It begins with its period, with a message, with a new value, with both or with
+   either of them, or at once. Each tick it is
    held to what PhaseTimeline tells beside it. */
 asm PhasesInTicks
 
@@ -83,18 +84,27 @@ default init s0:
 	function messageQueue($p in SchedulePhase) =
 		switch $p
 			case one: if sort = SENDING then outbox else inbox endif
-			case rest: if kind = ASYNCHRONOUS and awaited = MAIL then inbox else undef endif
+			case rest: if kind = ASYNCHRONOUS and waitsFor = MAIL then inbox else undef endif
+			case byMail: inbox
 			otherwise undef
 		endswitch
 	function sharedValue($p in SchedulePhase) =
 		switch $p
 			case one: if sort = LOADING then level else state endif
-			case rest: if kind = ASYNCHRONOUS and awaited = LEVEL then level else undef endif
+			case rest: if kind = ASYNCHRONOUS and waitsFor = LEVEL then level else undef endif
+			case byLevel: level
 			otherwise undef
 		endswitch
+	function awaited($p in SchedulePhase) =
+		if $p = rest and kind = ASYNCHRONOUS and (waitsFor = BOTH or waitsFor = EITHER) then
+			{byMail, byLevel}
+		else
+			undef
+		endif
+	function awaitsAll($p in SchedulePhase) = waitsFor = BOTH
 	function elaborationRule($p in SchedulePhase) = if hasSecond then <<r_elaborateOnce(Scheduler)>> else undef endif
 
-	function awaits = if kind = ASYNCHRONOUS then awaited else NOTHING endif
+	function awaits = if kind = ASYNCHRONOUS then waitsFor else NOTHING endif
 	function mayWait = if kind = SYNCHRONOUS then patience else 0 endif
 	function present = rest
 	function left = 0

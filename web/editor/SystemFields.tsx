@@ -105,6 +105,8 @@ function ComponentFields({ part, system, ...all }: Context & { acting: Acting; p
   const { id, acting, chart } = all
   const channels = Object.entries(system.parts).filter(([, other]) => other.part === 'channel')
   const read = channels.filter(([, other]) => other.part === 'channel' && other.readers.includes(id)).map(([name]) => name)
+  const names = read.join(', ')
+  const awaited = read.length > 1 ? [...read, `all ${names}`, `any ${names}`] : read
   const timing = part.synchronous === null ? null : part.synchronous ? ('synchronous' as const) : ('asynchronous' as const)
   return (
     <>
@@ -128,7 +130,7 @@ function ComponentFields({ part, system, ...all }: Context & { acting: Acting; p
         </div>
       )}
       {part.synchronous === true && <PropertyField {...all} property="misses" label={words.system.misses} value={part.misses} placeholder={words.system.missesNone} />}
-      {part.synchronous === false && <PropertyField {...all} property="awaits" label={words.system.awaits} value={part.awaits} placeholder={words.system.awaitsNone} list={read} />}
+      {part.synchronous === false && <PropertyField {...all} property="awaits" label={words.system.awaits} value={part.awaits} placeholder={words.system.awaitsNone} list={awaited} />}
       <Phases {...all} part={part} channels={channels.map(([name, other]) => ({ name, other: other as ChannelText }))} />
     </>
   )

@@ -23,7 +23,7 @@ const DECLARING = words(
 const SCENARIO = words('check strict set step until within exec pick begin end execblock expect')
 const CHART = words(
   `chart machine endmachine pattern endpattern control initial composite state endstate history entry abort guard action instance of sequence to refine by layout
-   endlayout at system endsystem tick processors within component endcomponent synchronous asynchronous period jitter offset deadline misses every fresh awaits read write
+   endlayout at system endsystem tick processors within component endcomponent synchronous asynchronous period jitter offset deadline misses every fresh awaits all any read write
    elaborate as channel from swinging buffer queue shared value master sensor actuator enter exit yes no`,
 )
 

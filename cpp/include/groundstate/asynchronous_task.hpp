@@ -1,7 +1,7 @@
 // An asynchronous task: woken by data, one cycle each time there is something to do.
 //
-// What it awaits raises its `trigger()`: a swinging buffer or a message queue does so by `wakes`. The task then asks
-// `available` whether there is something to do, and steps until there is not. It never polls. Waiting for data is its
+// What it awaits raises its `trigger()`: a swinging buffer or a message queue does so by `wakes`; several may raise the
+// same one. The task then asks `available` whether there is something to do, and steps until there is not. It never polls. Waiting for data is its
 // rest, and has no bound; waiting for locks within a cycle has the watchdog's bound.
 #pragma once
 

@@ -39,7 +39,7 @@ struct TaskPlan {
     std::int64_t busy_ticks = 0;  ///< a cycle's time without any waiting
     int rank = 0;                 ///< the shorter the period, the more urgent
     bool single_phase = false;
-    const char* awaits = "";  ///< the channel whose data wake an asynchronous task
+    const char* awaits = "";  ///< the channel whose data wake an asynchronous task; `all` or `any`, and several
 };
 
 /// What a chart says about a system; all names are literals.

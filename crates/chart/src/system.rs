@@ -87,7 +87,7 @@ pub struct Component {
 }
 
 /// When a component runs.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Timing {
     /// Periodically.
     Synchronous {
@@ -100,11 +100,49 @@ pub enum Timing {
         /// Time from the start of a period until its cycle must be done, in ticks.
         deadline: u64,
     },
-    /// When data arrive; without an awaited channel, always.
+    /// When data arrive; if it awaits none, always.
     Asynchronous {
-        /// The index of the channel whose data start a cycle.
-        awaits: Option<usize>,
+        /// The data that start a cycle.
+        awaits: Awaited,
     },
+}
+
+/// What an asynchronous component awaits.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Awaited {
+    /// The indices of the channels, in the order of the text; each is read by the component.
+    pub channels: Vec<usize>,
+    /// Whether a cycle needs something new on all of them, or on one. It says nothing where there are fewer than two.
+    pub needs: Needs,
+}
+
+/// Of how many awaited channels a cycle needs something new.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Needs {
+    /// Of all.
+    #[default]
+    All,
+    /// Of one.
+    Any,
+}
+
+impl Awaited {
+    /// Whether it needs data on several channels before a cycle begins.
+    pub fn gathers(&self) -> bool {
+        self.channels.len() > 1 && self.needs == Needs::All
+    }
+
+    /// As a chart says it: `awaits frames`, `awaits all frames, poses`; none if it awaits nothing.
+    pub fn said<'n>(&self, name: impl Fn(usize) -> &'n str) -> Option<String> {
+        let names: Vec<&str> = self.channels.iter().map(|channel| name(*channel)).collect();
+        let all = names.join(", ");
+        match (names.len(), self.needs) {
+            (0, _) => None,
+            (1, _) => Some(format!("awaits {all}")),
+            (_, Needs::All) => Some(format!("awaits all {all}")),
+            (_, Needs::Any) => Some(format!("awaits any {all}")),
+        }
+    }
 }
 
 impl System {
@@ -138,18 +176,26 @@ impl System {
 
 impl Timing {
     /// The period in ticks; `None` for an asynchronous component.
-    pub fn period(self) -> Option<u64> {
+    pub fn period(&self) -> Option<u64> {
         match self {
-            Timing::Synchronous { period, .. } => Some(period),
+            Timing::Synchronous { period, .. } => Some(*period),
             Timing::Asynchronous { .. } => None,
         }
     }
 
     /// How much later than its period a cycle may be released, in ticks; 0 for an asynchronous component.
-    pub fn jitter(self) -> u64 {
+    pub fn jitter(&self) -> u64 {
         match self {
-            Timing::Synchronous { jitter, .. } => jitter,
+            Timing::Synchronous { jitter, .. } => *jitter,
             Timing::Asynchronous { .. } => 0,
+        }
+    }
+
+    /// The indices of the channels whose data start a cycle.
+    pub fn awaited(&self) -> &[usize] {
+        match self {
+            Timing::Synchronous { .. } => &[],
+            Timing::Asynchronous { awaits } => &awaits.channels,
         }
     }
 }

@@ -7,4 +7,5 @@ mod extracted;
 mod machines;
 mod pages;
 mod regenerate;
+mod starts;
 mod systems;

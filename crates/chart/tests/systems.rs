@@ -430,3 +430,65 @@ fn readers_that_do_not_fit() {
         &["a second channel `frame_view` would be made"],
     );
 }
+
+const FUSION: &str = "chart Cell\nimport patterns/ControlTask\nsystem cell\n\
+    component camera synchronous period 10 ms write frames endcomponent component encoder synchronous period 4 ms write poses endcomponent\n\
+    component fuse asynchronous awaits all frames, poses read frames read poses write fixes endcomponent\n\
+    component guide asynchronous awaits fixes read fixes endcomponent\n\
+    channel frames from camera to fuse swinging buffer 2 channel poses from encoder to fuse shared value\n\
+    channel fixes from fuse to guide queue 4 endsystem\n";
+
+#[test]
+fn what_is_awaited() {
+    let model = built(FUSION);
+    assert_eq!(differences(FUSION, &model), [""; 0]);
+    let waiting = "system-differs: the waiting phase of the component `fuse`";
+    let check = |awaits: &str, expected: &[&str]| {
+        let told = differences(&FUSION.replace("awaits all frames, poses", awaits), &model);
+        let expected: Vec<String> = expected.iter().map(|text| format!("{waiting}: {text}")).collect();
+        assert_eq!(told, expected, "{awaits}");
+    };
+    check("awaits all poses, frames", &[]);
+    check("awaits any frames, poses", &["whether it awaits all of them is `false` in the chart, `true` in the model"]);
+    check(
+        "awaits poses",
+        &[
+            "the readings that it awaits is none in the chart, `{ fuse_read_frames , fuse_read_poses }` in the model",
+            "whether it awaits all of them is none in the chart, `true` in the model",
+            "its channel is `poses` in the chart, none in the model",
+        ],
+    );
+}
+
+#[test]
+fn what_cannot_be_awaited() {
+    let check = |from: &str, to: &str, expected: &str| {
+        assert!(FUSION.contains(from), "{from}");
+        let loaded = chart::load(SourceFile::new("Cell.chart", FUSION.replace(from, to)), &mut Patterns);
+        let told: Vec<&str> = loaded.diagnostics.iter().map(|fault| fault.message.as_str()).collect();
+        assert_eq!(told, [expected], "`{from}` for `{to}`");
+    };
+    let unclear = "several channels are awaited, and it is not said whether all or any of them";
+    check("awaits all frames", "awaits frames", unclear);
+    check("awaits all frames, poses", "awaits all frames, frames", "the channel `frames` is awaited twice");
+    let elsewhere = "the channel `fixes` does not fit: the component does not read it";
+    check("awaits all frames, poses", "awaits any frames, fixes", elsewhere);
+    check("awaits all frames, poses", "awaits all frames, pose", "there is no channel `pose`");
+    // A task that awaits its own data; two that await each other's, and a third one behind them.
+    let told = |text: &str| {
+        let loaded = chart::load(SourceFile::new("Cell.chart", text), &mut Patterns);
+        loaded.diagnostics.iter().map(|fault| fault.message.clone()).collect::<Vec<_>>()
+    };
+    let hinting = |readers: &str| {
+        let text = FUSION.replace("read fixes endcomponent", "read fixes write hints endcomponent");
+        text.replace("endsystem", &format!("channel hints from guide to {readers} queue 4 endsystem"))
+    };
+    let own = hinting("guide").replace("awaits fixes read fixes", "awaits all fixes, hints read fixes read hints");
+    assert_eq!(told(&own), ["`guide` never starts: `guide` awaits `guide`"]);
+    let back = hinting("fuse, late")
+        .replace("awaits all frames, poses read frames", "awaits all frames, hints read hints read frames")
+        .replace("endsystem", "component late asynchronous awaits hints read hints endcomponent endsystem");
+    assert_eq!(told(&back), ["`fuse` never starts: `fuse` awaits `guide` awaits `fuse`"]);
+    // One of several may come from outside.
+    assert_eq!(told(&back.replace("awaits all", "awaits any")), [""; 0]);
+}

@@ -4,8 +4,10 @@
 //! say otherwise. A program whose periods are others may well record events that the model could have, for a while: its
 //! verdict would be one about another system. What a recording leaves out is not held against it here.
 
+use std::collections::BTreeSet;
+
 use machine::{Machine, Value};
-use recording::{Recording, Rhythm, Track};
+use recording::{Awaited, Recording, Rhythm, Track};
 
 use crate::vocabulary::{Component, Named, Vocabulary};
 
@@ -54,14 +56,20 @@ fn timing(
     ))
 }
 
-/// The channel whose data wake the task.
+/// The data that wake the task.
 fn awaited(track: &Track, component: &Component, machine: &Machine, vocabulary: &Vocabulary) -> Option<String> {
-    let recorded = track.awaits.as_deref()?;
-    match vocabulary.wakes(machine, component) {
-        Some((_, channel)) if *channel == *recorded => None,
-        Some((_, channel)) => {
-            Some(format!("{} awaits {recorded} in the recording, {channel} in the model", track.task))
-        }
-        None => Some(format!("{} awaits {recorded} in the recording, nothing in the model", track.task)),
+    let recorded = track.awaits.as_ref()?;
+    let modelled = vocabulary.wakes(machine, component).map(|wakes| Awaited {
+        channels: wakes.channels.iter().map(|channel| channel.to_string()).collect(),
+        all: wakes.all,
+    });
+    let names = |awaited: &Awaited| awaited.channels.iter().cloned().collect::<BTreeSet<String>>();
+    let is_same = |modelled: &Awaited| {
+        names(modelled) == names(recorded) && (recorded.channels.len() == 1 || modelled.all == recorded.all)
+    };
+    if modelled.as_ref().is_some_and(is_same) {
+        return None;
     }
+    let modelled = modelled.map_or("nothing".to_string(), |modelled| modelled.to_string());
+    Some(format!("{} awaits {recorded} in the recording, {modelled} in the model", track.task))
 }

@@ -5,10 +5,9 @@
 //! beginning; one recorded after it (enters, takes) narrows the end. A beginning and what is done with it are one
 //! action. But a task that is woken by data was woken before it recorded that it begins.
 
-use std::sync::Arc;
-
 use recording::{Event, Kind};
 
+use crate::vocabulary::Wakes;
 use crate::waiting::Waited;
 
 /// LIMIT: this many events of another task are searched for one that may have come before.
@@ -19,8 +18,8 @@ const NEAR: usize = 64;
 pub struct Lane {
     pub events: Vec<Event>,
     pub place: Place,
-    /// For a task that data wake: its first phase, and the channel that it awaits.
-    pub wakes: Option<(Arc<str>, Arc<str>)>,
+    /// For a task that data wake: by which.
+    pub wakes: Option<Wakes>,
 }
 
 /// A task's position.
@@ -54,11 +53,11 @@ impl Lane {
         self.place.cursor.checked_sub(1).map(|last| &self.events[last])
     }
 
-    /// The channel whose data must be there before the next event.
-    pub fn awaits(&self) -> Option<&str> {
-        let (first, channel) = self.wakes.as_ref()?;
-        let begins = self.next().is_some_and(|next| next.kind == Kind::Begins && next.object == *first);
-        (begins && !self.place.woken).then_some(channel)
+    /// What must have woken the task before the next event.
+    pub fn awaits(&self) -> Option<&Wakes> {
+        let wakes = self.wakes.as_ref()?;
+        let begins = self.next().is_some_and(|next| next.kind == Kind::Begins && next.object == wakes.first);
+        (begins && !self.place.woken).then_some(wakes)
     }
 
     /// The event of the task's next action: the one that comes with a beginning, otherwise the next one.
@@ -93,13 +92,13 @@ impl Lane {
         Some(Span { from_ns, to_ns })
     }
 
-    /// The channel of the next action, if it is one on a channel.
-    pub fn channel(&self) -> Option<&str> {
-        if let Some(channel) = self.awaits() {
-            return Some(channel);
+    /// The channels that the next action depends on: several, if it is that they wake the task.
+    pub fn channels(&self) -> Vec<&str> {
+        if let Some(wakes) = self.awaits() {
+            return wakes.channels.iter().map(|channel| &**channel).collect();
         }
-        let action = self.events.get(self.acts())?;
-        (!is_local(action.kind)).then_some(&*action.object)
+        let action = self.events.get(self.acts()).filter(|action| !is_local(action.kind));
+        action.map(|action| &*action.object).into_iter().collect()
     }
 
     /// Whether the task acts on a channel perhaps before that instant.
@@ -110,8 +109,8 @@ impl Lane {
             if before_ns > until_ns {
                 return false;
             }
-            let wakes =
-                self.wakes.as_ref().is_some_and(|(first, awaits)| *event.object == **first && **awaits == *channel);
+            let awaits = |wakes: &Wakes| wakes.channels.iter().any(|awaited| **awaited == *channel);
+            let wakes = self.wakes.as_ref().is_some_and(|wakes| event.object == wakes.first && awaits(wakes));
             if wakes || *event.object == *channel {
                 return true;
             }

@@ -262,8 +262,9 @@ impl Replay {
     /// The components that act on the channel of this one's next action, perhaps before it.
     fn rivals(&self, component: usize) -> Vec<usize> {
         let lane = &self.lanes[component];
-        let (Some(channel), Some(span)) = (lane.channel(), lane.span(self.more)) else { return Vec::new() };
-        let meets = |other: &usize| *other != component && self.lanes[*other].may_act_on(channel, span.to_ns);
+        let (channels, Some(span)) = (lane.channels(), lane.span(self.more)) else { return Vec::new() };
+        let acts = |other: usize| channels.iter().any(|channel| self.lanes[other].may_act_on(channel, span.to_ns));
+        let meets = |other: &usize| *other != component && acts(*other);
         (0..self.lanes.len()).filter(meets).collect()
     }
 

@@ -22,6 +22,8 @@ pub enum Named {
     SharedMemory,
     MessageQueue,
     SharedValue,
+    Awaited,
+    AwaitsAll,
     Period,
     PeriodStart,
     Deadline,
@@ -59,6 +61,8 @@ const FUNCTIONS: &[(Named, &str, usize)] = &[
     (Named::SharedMemory, "sharedMemory", 1),
     (Named::MessageQueue, "messageQueue", 1),
     (Named::SharedValue, "sharedValue", 1),
+    (Named::Awaited, "awaited", 1),
+    (Named::AwaitsAll, "awaitsAll", 1),
     (Named::Period, "task_period", 1),
     (Named::PeriodStart, "task_periodStart", 1),
     (Named::Deadline, "task_deadline", 1),
@@ -130,6 +134,17 @@ pub struct Literals {
     pub execution: Value,
     pub receiving: Value,
     pub loading: Value,
+}
+
+/// What wakes a component.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Wakes {
+    /// Its first phase.
+    pub first: Arc<str>,
+    /// The channels that it awaits, in the order in which it reads them.
+    pub channels: Vec<Arc<str>>,
+    /// Whether it needs something new on each of them; otherwise on one.
+    pub all: bool,
 }
 
 /// What a component is to a channel.
@@ -292,12 +307,25 @@ impl Vocabulary {
         ["WRITING_ON_SB", "SENDING", "STORING"].contains(&action.as_str()).then(|| self.channel(machine, phase))
     }
 
-    /// For a component that data wake: its first phase, and the channel that it awaits.
-    pub fn wakes(&self, machine: &Machine, component: &Component) -> Option<(Arc<str>, Arc<str>)> {
+    /// For a component that data wake: by which.
+    pub fn wakes(&self, machine: &Machine, component: &Component) -> Option<Wakes> {
         let is_synchronous = !self.get(machine, Named::Period, std::slice::from_ref(&component.task)).is_undef();
-        let channel = self.channel(machine, &component.waiting);
-        let first = component.phases.first().filter(|_| !is_synchronous && !channel.is_undef())?;
-        Some((self.object(machine, first), self.object(machine, &channel)))
+        let first = component.phases.first().filter(|_| !is_synchronous)?;
+        let waiting = std::slice::from_ref(&component.waiting);
+        let (channels, all) = match self.get(machine, Named::Awaited, waiting) {
+            Value::Set(phases) => {
+                let reads = component.phases.iter().filter(|phase| phases.contains(phase));
+                let all = self.get(machine, Named::AwaitsAll, waiting) == Value::Boolean(true);
+                (reads.map(|phase| self.channel(machine, phase)).collect(), all)
+            }
+            _ => (vec![self.channel(machine, &component.waiting)], true),
+        };
+        let channels: Vec<Arc<str>> = channels
+            .iter()
+            .filter(|channel| !channel.is_undef())
+            .map(|channel| self.object(machine, channel))
+            .collect();
+        (!channels.is_empty()).then(|| Wakes { first: self.object(machine, first), channels, all })
     }
 
     /// The component of that name.

@@ -72,17 +72,17 @@ pub fn duration(phase: &Phase, tick_ns: u64) -> String {
 
 /// When a component runs, and what of its deadlines it may miss.
 pub fn timing(component: &Component, system: &System) -> String {
-    let mut text = runs(component.timing, system);
+    let mut text = runs(&component.timing, system);
     if let Some(one) = component.tolerance {
         let _ = write!(text, ", misses {} of {}", one.missed, one.cycles);
     }
     text
 }
 
-fn runs(timing: Timing, system: &System) -> String {
+fn runs(timing: &Timing, system: &System) -> String {
     let tick_ns = system.tick_ns;
     match timing {
-        Timing::Synchronous { period, jitter, offset, deadline } => {
+        &Timing::Synchronous { period, jitter, offset, deadline } => {
             let mut text = format!("synchronous, {}", time(period, tick_ns));
             if jitter > 0 {
                 let _ = write!(text, ", jitter {}", time(jitter, tick_ns));
@@ -95,10 +95,10 @@ fn runs(timing: Timing, system: &System) -> String {
             }
             text
         }
-        Timing::Asynchronous { awaits: Some(channel) } => {
-            format!("asynchronous, awaits {}", system.channels[channel].drawn)
+        Timing::Asynchronous { awaits } => {
+            let said = awaits.said(|channel| &system.channels[channel].drawn);
+            format!("asynchronous, {}", said.as_deref().unwrap_or("again and again"))
         }
-        Timing::Asynchronous { awaits: None } => "asynchronous, again and again".to_string(),
     }
 }
 

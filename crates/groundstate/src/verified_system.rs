@@ -194,8 +194,10 @@ impl Loader for Libraries<'_> {
 }
 
 /// What a verified model keeps of the ground model's state: its configuration and what the reduction leaves as it is.
-const KEPT: [&str; 24] = [
+const KEPT: [&str; 26] = [
     "action",
+    "awaited",
+    "awaitsAll",
     "dimension",
     "indexUpdated",
     "messageQueue",
@@ -221,7 +223,8 @@ const KEPT: [&str; 24] = [
     "task_period",
 ];
 /// What it keeps although the locations behind it change: lengths, what is new, what is due.
-const KEPT_DERIVED: [&str; 6] = ["dataAvailable", "mq_length", "patternsSound", "sv_isNew", "thereIsTime", "trigger"];
+const KEPT_DERIVED: [&str; 7] =
+    ["channelHasNew", "dataAvailable", "mq_length", "patternsSound", "sv_isNew", "thereIsTime", "trigger"];
 
 /// The functions that a term reads and that a verified model does not keep, or not for every length of an elaboration: what is true of
 /// them there need not be true of the system. Besides those of the patterns, it keeps these, of machines, sensors and actuators.

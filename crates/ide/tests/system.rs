@@ -42,7 +42,8 @@ fn properties(system: &SystemChart) -> Vec<(String, Property, Option<String>, &'
             let missed = kind.tolerance().map(|one| one.syntax().text().to_string().trim()[7..].to_string());
             out.push((name.clone(), Property::Misses, missed, "7 of 77"));
         } else {
-            out.push((name.clone(), Property::Awaits, word(kind.awaits()), "other"));
+            let awaited = kind.awaits().map(|one| one.syntax().text().to_string().trim()[7..].to_string());
+            out.push((name.clone(), Property::Awaits, awaited, "any other, another"));
         }
         for (phase, at) in component.phases().zip(0..) {
             out.push((name.clone(), Property::PhaseTime(at), length(phase.time()), "777 ms"));

@@ -162,6 +162,7 @@ impl Made<'_> {
             }
             if let Some(kind) = component.kind() {
                 self.periods(&kind, tick_ns);
+                self.awaited(&kind);
             }
             for phase in &phases {
                 self.duration(phase, tick_ns);
@@ -188,6 +189,14 @@ impl Made<'_> {
         for scaled in [Some(2.0 * value), halves.then_some(value / 2.0)].into_iter().flatten() {
             self.add(Operator::PeriodScaled, range(&period), vec![Edit::new(range_of(&number), shown(scaled))]);
         }
+    }
+
+    /// Lets one of several channels be enough, or asks for all of them.
+    fn awaited(&mut self, kind: &ComponentKind) {
+        let Some(awaits) = kind.awaits().filter(|awaits| awaits.channels().nth(1).is_some()) else { return };
+        let Some(word) = awaits.quantifier() else { return };
+        let other = if word.kind() == SyntaxKind::ALL_KW { "any" } else { "all" };
+        self.add(Operator::AwaitsExchanged, range(&awaits), vec![Edit::new(range_of(&word), other)]);
     }
 
     /// Makes a phase a tick longer, and a tick shorter.
@@ -292,6 +301,21 @@ mod tests {
         write position 0.1 ms\n\t\twrite speed 0.2..0.3 ms\n\tendcomponent\n\tcomponent control synchronous period 1 ms\n\t\tread position\n\t\t\
         read speed\n\tendcomponent\n\tchannel position from sense to control swinging buffer 2 master sense\n\tchannel speed from sense to control \
         queue 1\nendsystem\n";
+
+    #[test]
+    fn one_of_several_channels_is_enough() {
+        let awaiting = |what: &str| {
+            PAN.replace(
+                "component control synchronous period 1 ms",
+                &format!("component control asynchronous awaits {what}"),
+            )
+        };
+        let check = |what: &str, expect: &[&str]| check(&awaiting(what), Operator::AwaitsExchanged, expect);
+        check("all position, speed", &["component control asynchronous awaits any position, speed"]);
+        check("any position, speed", &["component control asynchronous awaits all position, speed"]);
+        check("position", &[]);
+        check("all position", &[]);
+    }
 
     #[test]
     fn machines_lead_elsewhere() {

@@ -61,13 +61,15 @@ pub enum Operator {
     SizeShifted,
     /// Of a chart: the other end is the master of a buffer.
     MasterExchanged,
+    /// Of a chart: a component that awaits all of several channels awaits any of them, and the other way round.
+    AwaitsExchanged,
 }
 
 use Operator::*;
 
 impl Operator {
     /// All operators, in the order of the list.
-    pub const ALL: [Operator; 28] = [
+    pub const ALL: [Operator; 29] = [
         RuleDeleted,
         CallDeleted,
         GuardNegated,
@@ -96,6 +98,7 @@ impl Operator {
         PeriodScaled,
         SizeShifted,
         MasterExchanged,
+        AwaitsExchanged,
     ];
 
     /// The id, as options and results name it.
@@ -129,6 +132,7 @@ impl Operator {
             PeriodScaled => "period-scaled",
             SizeShifted => "size-shifted",
             MasterExchanged => "master-exchanged",
+            AwaitsExchanged => "awaits-exchanged",
         }
     }
 
@@ -163,6 +167,7 @@ impl Operator {
             PeriodScaled => "a period is doubled or halved",
             SizeShifted => "a channel has one array or message more or less",
             MasterExchanged => "the other end is the master of a swinging buffer",
+            AwaitsExchanged => "`awaits all` becomes `awaits any`, or the other way round",
         }
     }
 

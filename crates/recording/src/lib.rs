@@ -22,6 +22,39 @@ pub struct Rhythm {
     pub deadline_ns: i64,
 }
 
+/// The data that wake an asynchronous task.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Awaited {
+    /// The channels.
+    pub channels: Vec<String>,
+    /// Whether a cycle needs something new on each of them; otherwise on one.
+    pub all: bool,
+}
+
+impl Awaited {
+    /// As a recording says it: the name of a channel, or `all` or `any` before several.
+    pub fn read(text: &str) -> Option<Awaited> {
+        let (quantifier, names) = match text.split_once(' ') {
+            Some((quantifier @ ("all" | "any"), names)) => (quantifier, names),
+            _ => ("all", text),
+        };
+        let channels: Vec<String> = names.split(',').map(|name| name.trim().to_string()).collect();
+        let are_names = channels.iter().all(|name| !name.is_empty() && !name.contains(' '));
+        (are_names && (channels.len() > 1) == (names != text)).then(|| Awaited { channels, all: quantifier == "all" })
+    }
+}
+
+impl std::fmt::Display for Awaited {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let quantifier = match (self.channels.len(), self.all) {
+            (..=1, _) => "",
+            (_, true) => "all ",
+            (_, false) => "any ",
+        };
+        write!(f, "{quantifier}{}", self.channels.join(", "))
+    }
+}
+
 /// The events of one task.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Track {
@@ -29,8 +62,8 @@ pub struct Track {
     pub task: String,
     /// For a synchronous task, if the recording gives it.
     pub rhythm: Option<Rhythm>,
-    /// The channel whose data wake an asynchronous task; none: it awaits nothing, or the recording does not say.
-    pub awaits: Option<String>,
+    /// What wakes an asynchronous task; none: it awaits nothing, or the recording does not say.
+    pub awaits: Option<Awaited>,
     /// Its events, in order.
     pub events: Vec<Event>,
     /// What its machine got and decided, in order: apart from the events, since neither has an instant in the model.

@@ -12,7 +12,7 @@ use std::sync::Arc;
 use serde::Deserialize;
 
 use crate::checksum::Checksum;
-use crate::{Bounded, Decision, Event, Greatest, Kind, Recording, Rhythm, Track};
+use crate::{Awaited, Bounded, Decision, Event, Greatest, Kind, Recording, Rhythm, Track};
 
 /// What is wrong with a file that is no recording.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -407,7 +407,7 @@ fn in_order(track: &Track) -> Result<(), Malformed> {
     }
 }
 
-/// Takes over what the head says of a task: its period, offset and deadline, and the channel whose data wake it.
+/// Takes over what the head says of a task: its period, offset and deadline, and the data that wake it.
 fn time(timing: &BTreeMap<String, String>, track: &mut Track) -> Result<(), Malformed> {
     let of = |what: &str| timing.get(&format!("{what} {}", track.task));
     let stated = [of("period_ns"), of("offset_ns"), of("deadline_ns")];
@@ -418,7 +418,12 @@ fn time(timing: &BTreeMap<String, String>, track: &mut Track) -> Result<(), Malf
         };
         track.rhythm = Some(Rhythm { period_ns, offset_ns, deadline_ns });
     }
-    track.awaits = of("awaits").cloned();
+    if let Some(text) = of("awaits") {
+        let Some(awaits) = Awaited::read(text) else {
+            return malformed(format!("it does not say in names of channels what {} awaits", track.task));
+        };
+        track.awaits = Some(awaits);
+    }
     Ok(())
 }
 

@@ -57,7 +57,10 @@ fn recording(name: &str, late_us: i64) -> Recording {
         ..Track::default()
     };
     Recording {
-        tracks: vec![track("camera", rhythm, None, made), track("servo", None, Some(format!("frames{name}")), used)],
+        tracks: vec![
+            track("camera", rhythm, None, made),
+            track("servo", None, recording::Awaited::read(&format!("frames{name}")), used),
+        ],
         system: name.into(),
         tick_ns: 100 * US,
         stopped_ns: Some(60_000 * US),

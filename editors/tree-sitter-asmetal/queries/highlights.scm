@@ -41,7 +41,7 @@
   "chart" "machine" "endmachine" "pattern" "endpattern" "control" "state" "endstate" "guard" "action" "instance" "of"
   "to" "refine" "enter" "exit" "yes" "no" "sequence" "history" "entry" "abort" "layout" "endlayout" "at"
   "system" "endsystem" "tick" "processors" "component" "endcomponent" "synchronous" "asynchronous" "period" "jitter" "offset"
-  "deadline" "awaits" "read" "elaborate" "write" "as" "channel" "from" "swinging" "buffer" "master" "queue" "value"
+  "deadline" "awaits" "all" "any" "read" "elaborate" "write" "as" "channel" "from" "swinging" "buffer" "master" "queue" "value"
   "sensor" "actuator" "within" "misses" "every" "fresh"
 ] @keyword
 

@@ -132,7 +132,12 @@ impl Properties<'_> {
         if let Some(text) = missed["text"].as_str() {
             missed["text"] = text.trim_start_matches("misses").trim().into();
         }
-        let awaits = self.word(kind.and_then(|kind| kind.awaits()));
+        // `all frames, poses`, without the word before.
+        let awaits = kind.and_then(|kind| kind.awaits());
+        let mut awaits = self.node(awaits.as_ref().map(AstNode::syntax));
+        if let Some(text) = awaits["text"].as_str() {
+            awaits["text"] = text.trim_start_matches("awaits").trim().into();
+        }
         let phases: Vec<Value> = component
             .phases()
             .map(|phase| {

@@ -18,7 +18,7 @@ use crate::chart::Chart;
 use crate::component::{Carrying, carry, compose};
 use crate::computing::{Computing, Made};
 use crate::fault;
-use crate::system::{Action, ChannelKind, Component, Phase, System, Timing};
+use crate::system::{Action, ChannelKind, Component, Needs, Phase, System, Timing};
 
 /// The parts of a system that cannot be built.
 pub(super) fn unbuilt(system: &System, known: &Known) -> Vec<Diagnostic> {
@@ -352,12 +352,12 @@ fn tasks(system: &System, define: &mut impl FnMut(&str, &str)) {
     define("task_kind($t in Task)", &by_case("$t", &kind));
     let periods = each(&|c| period(c).map_or("undef".to_string(), |period| period.to_string()));
     define("task_period($t in Task)", &by_case("$t", &periods));
-    let early = |timing: Timing| match timing {
-        Timing::Synchronous { period, deadline, .. } if period != deadline => Some(deadline),
-        _ => None,
+    let early = |timing: &Timing| match timing {
+        Timing::Synchronous { period, deadline, .. } if period != deadline => Some(*deadline),
+        Timing::Synchronous { .. } | Timing::Asynchronous { .. } => None,
     };
-    if system.components.iter().any(|component| early(component.timing).is_some()) {
-        let deadlines = each(&|c| early(c.timing).map_or("undef".to_string(), |deadline| deadline.to_string()));
+    if system.components.iter().any(|component| early(&component.timing).is_some()) {
+        let deadlines = each(&|c| early(&c.timing).map_or("undef".to_string(), |deadline| deadline.to_string()));
         define("task_deadline($t in Task)", &by_case("$t", &deadlines));
     }
     let budget = each(&|c| period(c).map_or("undef".to_string(), |_| budget(system, c).to_string()));
@@ -484,6 +484,8 @@ struct Row {
     queue: Option<String>,
     value: Option<String>,
     rule: Option<String>,
+    /// Of a waiting phase that awaits several channels: the phases that read them, and of how many it needs data.
+    awaits: Option<(Vec<String>, Needs)>,
 }
 
 fn phases(system: &System, define: &mut impl FnMut(&str, &str)) {
@@ -511,8 +513,12 @@ fn phases(system: &System, define: &mut impl FnMut(&str, &str)) {
         }
         let next = names.first().map_or(wait.clone(), |first| (*first).to_string());
         let mut row = Row { name: wait, time: 1, next, ..Row::default() };
-        if let Timing::Asynchronous { awaits: Some(channel) } = component.timing {
-            use_channel(&mut row, system, channel, ["", "", ""]);
+        if let Timing::Asynchronous { awaits } = &component.timing {
+            match awaits.channels[..] {
+                [] => {}
+                [channel] => use_channel(&mut row, system, channel, ["", "", ""]),
+                _ => row.awaits = Some((reading(component, &awaits.channels), awaits.needs)),
+            }
         }
         row.action = "WAITING_TRIGGER";
         rows.push(row);
@@ -535,8 +541,24 @@ fn phases(system: &System, define: &mut impl FnMut(&str, &str)) {
     if rows.iter().any(|row| row.value.is_some()) {
         define("sharedValue($p in SchedulePhase)", &by_case("$p", &column(&|row| or_undef(&row.value))));
     }
+    if rows.iter().any(|row| row.awaits.is_some()) {
+        let phases = |row: &Row| {
+            row.awaits.as_ref().map_or("undef".to_string(), |(phases, _)| format!("{{{}}}", phases.join(", ")))
+        };
+        define("awaited($p in SchedulePhase)", &by_case("$p", &column(&phases)));
+        let needs = |row: &Row| {
+            row.awaits.as_ref().map_or("undef".to_string(), |(_, needs)| (*needs == Needs::All).to_string())
+        };
+        define("awaitsAll($p in SchedulePhase)", &by_case("$p", &column(&needs)));
+    }
     let rule = |row: &Row| row.rule.as_ref().map_or("undef".to_string(), |rule| format!("<<{rule}(Scheduler)>>"));
     define("elaborationRule($p in SchedulePhase)", &by_case("$p", &column(&rule)));
+}
+
+/// The phases of a component that read these channels, in the order of a cycle.
+fn reading(component: &Component, channels: &[usize]) -> Vec<String> {
+    let reads = |phase: &&Phase| matches!(phase.action, Action::Read(channel) if channels.contains(&channel));
+    component.phases.iter().filter(reads).map(|phase| phase.name.clone()).collect()
 }
 
 /// Makes a phase use a channel; the channel's kind (buffer, queue, value) selects the action.

@@ -401,6 +401,8 @@ fn what(function: &str) -> String {
         "action" => "what it does",
         "sharedMemory" | "messageQueue" | "sharedValue" => "its channel",
         "elaborationRule" => "its rule",
+        "awaited" => "the readings that it awaits",
+        "awaitsAll" => "whether it awaits all of them",
         "dimension" => "the number of arrays",
         "sb_master" => "the master",
         "indexRead" => "the array that is read first",

@@ -22,7 +22,7 @@ use super::reads;
 use super::roles::own;
 use crate::build::{busy, taken};
 use crate::computing::{ComponentMachine, Computing, Feed, Take};
-use crate::system::{Action, Channel, ChannelKind, Component, Phase, System, Timing};
+use crate::system::{Action, Awaited, Channel, ChannelKind, Component, Phase, System, Timing};
 use crate::times::section;
 
 /// A function of a component's machine: the index of the component, the function's name in its machine.
@@ -230,9 +230,9 @@ fn closed(system: &System, mut functions: BTreeSet<Node>) -> Option<Reduction> {
             }
         }
         for component in components.clone() {
-            if let Timing::Asynchronous { awaits: Some(channel) } = system.components[component].timing {
-                components.insert(system.channels[channel].from);
-            }
+            components.extend(
+                system.components[component].timing.awaited().iter().map(|channel| system.channels[*channel].from),
+            );
         }
         let queues = system.channels.iter().filter(|channel| matches!(channel.kind, ChannelKind::Queue { .. }));
         for channel in queues {
@@ -284,11 +284,13 @@ fn component(system: &System, index: usize, new_channel: &BTreeMap<usize, usize>
         }
         part
     };
-    let timing = match component.timing {
+    let timing = match &component.timing {
         Timing::Asynchronous { awaits } => {
-            Timing::Asynchronous { awaits: awaits.and_then(|channel| new_channel.get(&channel).copied()) }
+            // The writers of all that is awaited are parts, too.
+            let channels = awaits.channels.iter().map(|channel| new_channel[channel]).collect();
+            Timing::Asynchronous { awaits: Awaited { channels, ..*awaits } }
         }
-        periodic => periodic,
+        Timing::Synchronous { .. } => component.timing.clone(),
     };
     let phases = component.phases.iter().map(phase).collect();
     Component { timing, phases, tolerance: None, ..component.clone() }

@@ -18,6 +18,7 @@ pub const IDS: &[&str] = &[
     "chart-differs",
     "chart-import",
     "circular-path",
+    "circular-wait",
     "component-machine",
     "composite-state",
     "control-variable",
@@ -422,6 +423,32 @@ pub(crate) fn channel_ends(span: Span, name: &str, reason: &str) -> Diagnostic {
     Diagnostic::error("channel-ends", span, format!("the channel `{name}` does not fit: {reason}"))
         .here("its sender writes it once a cycle, its receiver reads it once")
         .with_help("correct the channel, or the phases of its two ends")
+}
+
+/// Components that start each other, and nothing else does.
+pub(crate) fn circular_wait(span: Span, circle: &[&str]) -> Diagnostic {
+    let (name, ways) = (circle.first().copied().unwrap_or_default(), circle.join("` awaits `"));
+    Diagnostic::error("circular-wait", span, format!("`{name}` never starts: `{ways}`"))
+        .here("what it awaits is written after it has started")
+        .with_help("let one of them await something else too (`awaits any …`), or give it a period")
+}
+
+/// A channel that a component awaits twice.
+pub(crate) fn awaited_twice(span: Span, name: &str) -> Diagnostic {
+    Diagnostic::error("channel-ends", span, format!("the channel `{name}` is awaited twice"))
+        .here("named before")
+        .with_help("name each channel once")
+}
+
+/// Several awaited channels, and it is not said whether all must have data.
+pub(crate) fn awaited_unclear(span: Span) -> Diagnostic {
+    Diagnostic::error(
+        "channel-ends",
+        span,
+        "several channels are awaited, and it is not said whether all or any of them",
+    )
+    .here("a cycle begins when something new has come")
+    .with_help("write `awaits all …` for something new on each of them, `awaits any …` for something new on one")
 }
 
 /// A buffer whose master cannot be determined.

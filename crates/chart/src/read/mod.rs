@@ -3,6 +3,7 @@
 //! In: the tree of one chart file, and its imports. Out: a [`Chart`], as complete as the text allows, and the faults in
 //! the order of their places. Whether links resolve is for `check` to decide.
 
+mod awaits;
 mod import;
 mod link;
 mod machine;

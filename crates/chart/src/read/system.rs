@@ -11,8 +11,8 @@ use super::link::{flat, link};
 use super::machine::spoken;
 use crate::build::system::{busy, taken};
 use crate::system::{
-    Action, AgeBound, Channel, ChannelKind, Component, Device, FreshBound, Named, Phase, System, Timing, Tolerance,
-    length,
+    Action, AgeBound, Awaited, Channel, ChannelKind, Component, Device, FreshBound, Named, Phase, System, Timing,
+    Tolerance, length,
 };
 use crate::{fault, times, ways};
 
@@ -70,6 +70,9 @@ impl Reader {
         }
         for index in 0..system.channels.len() {
             self.ends(index, &system);
+        }
+        if self.faults.iter().all(|fault| fault.severity != Severity::Error) {
+            self.circular_waits(&system);
         }
         let components = system.components.iter().map(|component| (&component.name, component.span));
         let channels = system.channels.iter().map(|channel| (&channel.name, channel.span));
@@ -304,7 +307,7 @@ impl Reader {
                     let place = Span::new(self.file, quantity.range());
                     self.faults.push(fault::times::no_period_of_jitter(place, name.text()));
                 }
-                Timing::Asynchronous { awaits: None }
+                Timing::Asynchronous { awaits: Awaited::default() }
             }
         };
         system.components.push(Component {
@@ -351,7 +354,7 @@ impl Reader {
     }
 
     /// The channel of that name that this component reads; a channel of it that others read, if there is none.
-    fn channel_read(&mut self, name: &SyntaxToken, reader: usize, system: &System) -> Option<usize> {
+    pub(super) fn channel_read(&mut self, name: &SyntaxToken, reader: usize, system: &System) -> Option<usize> {
         let found = self.channels_named(name, system);
         found.iter().find(|channel| system.channels[**channel].to == reader).or(found.first()).copied()
     }
@@ -412,13 +415,10 @@ impl Reader {
     }
 
     fn phases(&mut self, index: usize, node: &ast::Component, system: &mut System) {
-        if let (Timing::Asynchronous { .. }, Some(name)) =
-            (system.components[index].timing, node.kind().and_then(|kind| kind.awaits()))
+        if let (Timing::Asynchronous { .. }, Some(awaited)) =
+            (&system.components[index].timing, node.kind().and_then(|kind| kind.awaits()))
         {
-            let awaits = self.channel_read(&name, index, system);
-            if awaits.is_some_and(|channel| system.channels[channel].to != index) {
-                self.faults.push(fault::channel_ends(self.span(&name), name.text(), "the component does not read it"));
-            }
+            let awaits = self.awaited(&awaited, index, system);
             system.components[index].timing = Timing::Asynchronous { awaits };
         }
         for phase in node.phases() {

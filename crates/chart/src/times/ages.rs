@@ -7,7 +7,7 @@
 //! verification of small systems is held to it in tests. INVARIANT: no age is given where a task may leave out an access.
 
 use super::Analysis;
-use crate::system::{Action, AgeBound, ChannelKind, System, Timing};
+use crate::system::{Action, AgeBound, ChannelKind, Needs, System, Timing};
 use crate::ways::{accessed, prepared, ways};
 
 /// The greatest age that a bound is about.
@@ -36,11 +36,12 @@ pub struct Way {
 
 /// The ages of all bounds.
 pub(super) fn ages(system: &System, analysis: &Analysis<'_>) -> Vec<Age> {
+    let chain = Chain::new(system, analysis);
     let each = |bound: &AgeBound| {
         let ways: Vec<Way> = ways(system, bound)
             .into_iter()
             .map(|(first, channels)| {
-                let age = Chain { system, analysis }.age(first, &channels);
+                let age = chain.age(first, &channels);
                 let (most, reason) = match age {
                     Ok(most) => (Some(most), None),
                     Err(reason) => (None, Some(reason)),
@@ -75,9 +76,23 @@ fn least(system: &System, first: usize, channels: &[usize]) -> u64 {
 pub(super) struct Chain<'a> {
     pub(super) system: &'a System,
     pub(super) analysis: &'a Analysis<'a>,
+    /// Of each component, the longest time between the beginnings of two cycles that follow each other, or why none is known.
+    gaps: Vec<Result<u64, String>>,
 }
 
-impl Chain<'_> {
+impl<'a> Chain<'a> {
+    pub(super) fn new(system: &'a System, analysis: &'a Analysis<'a>) -> Chain<'a> {
+        let count = system.components.len();
+        let circle =
+            |component: &crate::system::Component| Err(format!("{} awaits what rests on its own data", component.name));
+        let mut chain = Chain { system, analysis, gaps: system.components.iter().map(circle).collect() };
+        // Each round knows the gaps of tasks that are a writer further from the periodic ones.
+        for _ in 0..=count {
+            chain.gaps = (0..count).map(|component| chain.gap_after(component)).collect();
+        }
+        chain
+    }
+
     fn name(&self, component: usize) -> &str {
         &self.system.components[component].name
     }
@@ -97,36 +112,54 @@ impl Chain<'_> {
         }
     }
 
-    /// The longest time between the beginnings of two cycles that follow each other; `depth` ends circles of tasks that await each other.
-    pub(super) fn gap(&self, component: usize, depth: usize) -> Result<u64, String> {
+    /// The longest time between the beginnings of two cycles that follow each other.
+    pub(super) fn gap(&self, component: usize) -> Result<u64, String> {
+        self.gaps[component].clone()
+    }
+
+    /// The same, by what is known of the writers of what it awaits.
+    fn gap_after(&self, component: usize) -> Result<u64, String> {
         let response = self.response(component)?;
-        match self.system.components[component].timing {
-            Timing::Synchronous { period, .. } => Ok(period),
-            Timing::Asynchronous { awaits: None } => Ok(response + 1),
-            Timing::Asynchronous { .. } if depth == 0 => {
-                Err(format!("{} awaits what rests on its own data", self.name(component)))
+        let awaits = match &self.system.components[component].timing {
+            Timing::Synchronous { period, .. } => return Ok(*period),
+            Timing::Asynchronous { awaits } if awaits.channels.is_empty() => return Ok(response + 1),
+            Timing::Asynchronous { awaits } => awaits,
+        };
+        // From a cycle's end on, something new comes on a channel when its writer begins again and is done.
+        let comes = |channel: &usize| {
+            let writer = self.system.channels[*channel].from;
+            Ok(self.gap(writer)? + self.response(writer)?)
+        };
+        let mut times = awaits.channels.iter().map(comes);
+        let comes = match awaits.needs {
+            Needs::All => {
+                times.try_fold(0, |longest, time: Result<u64, String>| Ok::<u64, String>(longest.max(time?)))?
             }
-            Timing::Asynchronous { awaits: Some(channel) } => {
-                let writer = self.system.channels[channel].from;
-                Ok(response + 1 + self.gap(writer, depth - 1)? + self.response(writer)?)
+            // The first that is known will do; one of the others may come sooner.
+            Needs::Any => {
+                let all: Vec<Result<u64, String>> = times.collect();
+                match all.iter().flatten().min() {
+                    Some(shortest) => *shortest,
+                    None => all.into_iter().find_map(Result::err).map_or(Ok(0), Err)?,
+                }
             }
-        }
+        };
+        Ok(response + 1 + comes)
     }
 
     fn age(&self, first: usize, channels: &[usize]) -> Result<u64, String> {
-        let depth = self.system.components.len();
         // How old what a component reads is, at most, whenever it reads.
         let mut age = 0;
         let mut at = first;
         let mut by = None;
         for channel in channels {
-            age += self.waits(at, by, Some(*channel), depth)?;
+            age += self.waits(at, by, Some(*channel))?;
             let response = self.response(at)?;
             // A component that awaits the data themselves begins as soon as they come, or when its cycle is over.
-            let follows = by.is_some() && self.analysis.awaited(at) == by;
+            let follows = by.is_some_and(|by| self.analysis.starts_by(by));
             age += match self.system.components[at].timing {
                 Timing::Asynchronous { .. } if follows => 2 * response + 1,
-                _ => self.gap(at, depth)? + response,
+                _ => self.gap(at)? + response,
             };
             at = self.system.channels[*channel].to;
             by = Some(*channel);
@@ -137,15 +170,15 @@ impl Chain<'_> {
                     Timing::Synchronous { .. } => response,
                     Timing::Asynchronous { .. } => 0,
                 };
-                let gap = self.gap(at, depth)?;
+                let gap = self.gap(at)?;
                 age += capacity.saturating_mul(gap).min(gap + self.response(at)? + late);
             }
         }
-        Ok(age + self.waits(at, by, None, depth)? + self.response(at)?)
+        Ok(age + self.waits(at, by, None)? + self.response(at)?)
     }
 
     /// What is read after the elaboration waits for the next one; what is written before it, for the next cycle.
-    fn waits(&self, component: usize, read: Option<usize>, write: Option<usize>, depth: usize) -> Result<u64, String> {
+    fn waits(&self, component: usize, read: Option<usize>, write: Option<usize>) -> Result<u64, String> {
         let written = write.and_then(|channel| accessed(self.system, component, &Action::Write(channel)));
         let read = read.and_then(|channel| accessed(self.system, component, &Action::Read(channel)));
         let taken = prepared(self.system, component, written);
@@ -155,6 +188,6 @@ impl Chain<'_> {
             Some(_) => u64::from(later(read, taken)) + u64::from(later(taken, written)),
             None => u64::from(later(read, written)),
         };
-        Ok(if cycles == 0 { 0 } else { cycles * self.gap(component, depth)? })
+        Ok(if cycles == 0 { 0 } else { cycles * self.gap(component)? })
     }
 }

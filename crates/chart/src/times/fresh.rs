@@ -59,8 +59,7 @@ pub(super) fn fresh(system: &System, analysis: &Analysis<'_>) -> Vec<Fresh> {
 }
 
 fn longest(system: &System, analysis: &Analysis<'_>, place: Place) -> Result<u64, String> {
-    let chain = Chain { system, analysis };
-    let depth = system.components.len();
+    let chain = Chain::new(system, analysis);
     let (reader, writer) = (place.component, system.channels[place.channel].from);
     let least = |component: usize, phases: std::ops::Range<usize>| -> u64 {
         system.components[component].phases[phases].iter().map(|phase| phase.least).sum()
@@ -68,9 +67,9 @@ fn longest(system: &System, analysis: &Analysis<'_>, place: Place) -> Result<u64
     let written =
         system.components[writer].phases.iter().position(|phase| phase.action == Action::Write(place.channel));
     // From the end of a writing, or later, to that of the next one.
-    let until_written = chain.gap(writer, depth)? + chain.response(writer)? - least(writer, 0..written.unwrap_or(0));
+    let until_written = chain.gap(writer)? + chain.response(writer)? - least(writer, 0..written.unwrap_or(0));
     let response = chain.response(reader)?;
-    if analysis.awaited(reader) == Some(place.channel) {
+    if analysis.starts_by(place.channel) {
         // It begins when the datum comes, or when the cycle before is over.
         return Ok(until_written + 2 * response + 1);
     }
@@ -78,7 +77,7 @@ fn longest(system: &System, analysis: &Analysis<'_>, place: Place) -> Result<u64
     let soonest = least(reader, 0..place.phase);
     let latest = response - least(reader, place.phase + 1..system.components[reader].phases.len());
     let varies = latest.saturating_sub(soonest);
-    let gap = chain.gap(reader, depth)?;
+    let gap = chain.gap(reader)?;
     let any = until_written + gap + response - soonest;
     Ok(match system.components[reader].timing.period() {
         // The last reading before the datum is there begins no later than it.

@@ -12,6 +12,7 @@ mod fresh;
 mod locks;
 mod missed;
 mod response;
+mod starts;
 
 use std::cmp::Ordering;
 
@@ -21,6 +22,7 @@ use crate::build::busy;
 use crate::fault;
 use crate::system::{System, Timing, Tolerance, length};
 use response::{Demand, on_one, on_several};
+use starts::Stream;
 
 pub use ages::{Age, Way};
 pub use fresh::{Fresh, bounded};
@@ -77,7 +79,8 @@ pub struct TaskTimes {
     pub priority: usize,
     /// The shortest and the longest time of a cycle that never waits.
     pub execution: (u64, u64),
-    /// The shortest time between two cycles: the period, or that of the data that are awaited.
+    /// The shortest time between two cycles in the long run: the period, or what follows from the data that are awaited. Where
+    /// it awaits any of several, their mean.
     pub interval: Option<u64>,
     /// The part of a processor that it needs; none if it may start at any time.
     pub load: Option<f64>,
@@ -131,6 +134,10 @@ struct Analysis<'s> {
     urgency: Vec<usize>,
     blocking: Vec<Result<u64, String>>,
     responses: Vec<Option<u64>>,
+    /// The periods of what starts each component; none if it may start at any time.
+    periods: Vec<Option<Vec<u64>>>,
+    /// When the cycles of each component could begin, by the present responses.
+    releases: Vec<Option<Vec<Stream>>>,
 }
 
 /// LIMIT: a response of a task without a deadline is sought up to so many ticks.
@@ -141,12 +148,8 @@ const ROUNDS: usize = 64;
 /// The times of a system on a platform.
 pub fn times(system: &System, platform: Platform) -> Times {
     let count = system.components.len();
-    let urgency = urgency(system, platform.order);
     let shares = !is_apart(system, platform);
-    let blocking = locks::blocking(system, platform, &urgency);
-    let mut analysis = Analysis { system, platform, urgency, blocking, responses: vec![None; count] };
-    analysis.respond();
-    let interval = |index: usize| analysis.interval(index);
+    let analysis = Analysis::new(system, platform);
     // What comes faster than a task can take it is left out by it; a synchronous one is late.
     let capped = |index: usize, load: f64| match system.components[index].timing {
         Timing::Synchronous { .. } => load,
@@ -154,8 +157,9 @@ pub fn times(system: &System, platform: Platform) -> Times {
     };
     let loads: Vec<Option<f64>> = (0..count)
         .map(|index| {
-            let load = |interval: u64| executed(system, index).1 as f64 / interval.max(1) as f64;
-            interval(index).map(|interval| capped(index, load(interval)))
+            let periods = analysis.periods[index].as_ref()?.iter();
+            let load: f64 = periods.map(|period| executed(system, index).1 as f64 / (*period).max(1) as f64).sum();
+            Some(capped(index, load))
         })
         .collect();
     let synchronous = |index: &usize| system.components[*index].timing.period().is_some();
@@ -165,7 +169,7 @@ pub fn times(system: &System, platform: Platform) -> Times {
     let tasks = (0..count).map(|index| TaskTimes {
         priority: analysis.urgency.iter().position(|other| *other == index).map_or(0, |place| place + 1),
         execution: executed(system, index),
-        interval: interval(index),
+        interval: analysis.interval(index),
         load: loads[index],
         blocking: analysis.blocking[index].as_ref().ok().copied(),
         response: analysis.responses[index],
@@ -275,52 +279,44 @@ fn urgency(system: &System, order: Order) -> Vec<usize> {
     all
 }
 
-impl Analysis<'_> {
-    /// The shortest time between two cycles of a component, without jitter.
-    fn interval(&self, index: usize) -> Option<u64> {
-        let mut at = index;
-        for _ in 0..=self.system.components.len() {
-            match self.system.components[at].timing {
-                Timing::Synchronous { period, .. } => return Some(period),
-                Timing::Asynchronous { awaits: None } => return None,
-                Timing::Asynchronous { awaits: Some(channel) } => at = self.system.channels[channel].from,
-            }
-        }
-        None
+impl<'s> Analysis<'s> {
+    fn new(system: &'s System, platform: Platform) -> Analysis<'s> {
+        let urgency = urgency(system, platform.order);
+        let blocking = locks::blocking(system, platform, &urgency);
+        let count = system.components.len();
+        let (periods, responses, releases) = (starts::periods(system), vec![None; count], vec![None; count]);
+        let mut analysis = Analysis { system, platform, urgency, blocking, responses, periods, releases };
+        analysis.respond();
+        analysis
     }
 
-    /// What a component asks of its processor: an asynchronous one starts when the writer of what it awaits has written.
-    fn demand(&self, index: usize) -> Option<Demand> {
-        let execution = executed(self.system, index).1;
-        let jitter = match self.system.components[index].timing {
-            Timing::Synchronous { jitter, .. } => jitter,
-            Timing::Asynchronous { awaits: None } => return None,
-            Timing::Asynchronous { awaits: Some(channel) } => {
-                let writer = self.system.channels[channel].from;
-                // The response of a synchronous writer has its jitter in it.
-                let before = match self.system.components[writer].timing {
-                    Timing::Synchronous { .. } => 0,
-                    Timing::Asynchronous { .. } => self.demand(writer).map_or(0, |demand| demand.jitter),
-                };
-                let response = self.responses[writer]?;
-                // What comes while its writer is still at work waits there, too: nothing bounds how close it then follows.
-                if self.awaited(writer).is_some() && self.interval(writer)? < response {
-                    return None;
-                }
-                before.saturating_add(response)
+    /// The shortest time between two cycles of a component in the long run, without jitter.
+    fn interval(&self, index: usize) -> Option<u64> {
+        match &self.periods[index].as_ref()?[..] {
+            [one] => Some(*one),
+            several => {
+                let rate: f64 = several.iter().map(|period| 1.0 / (*period).max(1) as f64).sum();
+                Some((1.0 / rate) as u64)
             }
-        };
-        Some(Demand { execution, period: self.interval(index)?, jitter })
+        }
+    }
+
+    /// What a component asks of its processor.
+    fn demands(&self, index: usize) -> Option<Vec<Demand>> {
+        let execution = executed(self.system, index).1;
+        let demand = |one: &Stream| Demand { execution, period: one.period, jitter: one.jitter };
+        Some(self.releases[index].as_ref()?.iter().map(demand).collect())
     }
 
     /// Computes all responses. Asynchronous tasks start after others, so theirs follow from one another.
     fn respond(&mut self) {
         for index in 0..self.responses.len() {
-            let awaits_in_a_circle = self.interval(index).is_none() && self.awaited(index).is_some();
+            let awaits_in_a_circle = self.interval(index).is_none() && !self.awaited(index).is_empty();
             self.responses[index] = (!awaits_in_a_circle).then(|| executed(self.system, index).1);
         }
         for _ in 0..ROUNDS {
             let before = self.responses.clone();
+            self.releases = starts::releases(self);
             for place in 0..self.urgency.len() {
                 let index = self.urgency[place];
                 if self.responses[index].is_some() {
@@ -339,10 +335,15 @@ impl Analysis<'_> {
         }
     }
 
-    fn awaited(&self, index: usize) -> Option<usize> {
-        match self.system.components[index].timing {
-            Timing::Asynchronous { awaits } => awaits,
-            Timing::Synchronous { .. } => None,
+    fn awaited(&self, index: usize) -> &[usize] {
+        self.system.components[index].timing.awaited()
+    }
+
+    /// Whether a datum that comes on this channel starts a cycle of its reader, or the one after the present cycle.
+    fn starts_by(&self, channel: usize) -> bool {
+        match &self.system.components[self.system.channels[channel].to].timing {
+            Timing::Synchronous { .. } => false,
+            Timing::Asynchronous { awaits } => awaits.channels.contains(&channel) && !awaits.gathers(),
         }
     }
 
@@ -358,16 +359,18 @@ impl Analysis<'_> {
         // A cycle that ends after its period would delay the next one, which is not analysed.
         let limit = self.system.components[index].timing.period().map_or(LONGEST, |period| period - jitter);
         let higher = &self.urgency[..place];
-        let demands = higher.iter().map(|other| self.demand(*other)).collect::<Option<Vec<Demand>>>()?;
-        let needed: f64 = demands.iter().map(|demand| demand.execution as f64 / demand.period.max(1) as f64).sum();
+        let demands = higher.iter().map(|other| self.demands(*other)).collect::<Option<Vec<Vec<Demand>>>>()?;
+        let needed: f64 =
+            demands.iter().flatten().map(|demand| demand.execution as f64 / demand.period.max(1) as f64).sum();
         if needed >= self.platform.processors as f64 && !demands.is_empty() {
             return None;
         }
         if self.platform.processors == 1 {
-            return Some(on_one(execution, blocking, &demands, limit)?.saturating_add(jitter));
+            return Some(on_one(execution, blocking, &demands.concat(), limit)?.saturating_add(jitter));
         }
-        let with_responses = |(demand, other): (Demand, &usize)| {
+        let with_responses = |(demands, other): (Vec<Demand>, &usize)| {
             // A job of an asynchronous task may still be at work when the next one could begin.
+            let [demand] = demands[..] else { return None };
             let response = self.responses[*other].filter(|response| *response <= demand.period)?;
             // That of a synchronous task has its jitter in it.
             let before = match self.system.components[*other].timing {
@@ -383,7 +386,8 @@ impl Analysis<'_> {
 
     fn verdict(&self, index: usize) -> Verdict {
         let component = &self.system.components[index];
-        let (Timing::Synchronous { deadline, offset, .. }, Some(available)) = (component.timing, component.available())
+        let (&Timing::Synchronous { deadline, offset, .. }, Some(available)) =
+            (&component.timing, component.available())
         else {
             return Verdict::None;
         };

@@ -125,7 +125,7 @@ fn what_the_head_says_of_tasks_is_so_in_the_model() {
     assert_eq!(refused("camera", &rhythm(100, 0, 200)), deadline);
     let none = "visual_servoing has a period in the recording, and none in the model";
     assert_eq!(refused("visual_servoing", &rhythm(100, 0, 100)), none);
-    let awaits = |channel: &'static str| move |track: &mut Track| track.awaits = Some(channel.to_string());
+    let awaits = |channel: &'static str| move |track: &mut Track| track.awaits = recording::Awaited::read(channel);
     assert_eq!(refused("visual_servoing", &awaits("camera_to_vs")), "nothing");
     let other = "visual_servoing awaits vs_to_robot in the recording, camera_to_vs in the model";
     assert_eq!(refused("visual_servoing", &awaits("vs_to_robot")), other);

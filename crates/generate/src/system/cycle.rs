@@ -84,7 +84,8 @@ pub(super) fn cycle(text: &mut String, system: &System, index: usize, form: &For
             writeln!(text, "            phases.complete({}, this->instant_ns({index}));", numbers.components + index);
     }
     text.push_str("        });\n");
-    if component.timing == (Timing::Asynchronous { awaits: None }) {
+    let is_periodic = component.timing.period().is_some();
+    if !is_periodic && component.timing.awaited().is_empty() {
         let _ = writeln!(text, "        this->rest_for_a_cycle({index}, cycle);");
     }
     text.push_str("    }\n\n");

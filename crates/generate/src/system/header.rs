@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use chart::build::busy;
-use chart::system::{Action, Channel, ChannelKind, Component, System, Timing};
+use chart::system::{Action, Channel, ChannelKind, Component, Needs, System, Timing};
 
 use super::bounds::bounds;
 use super::cycle::cycle;
@@ -58,12 +58,16 @@ fn one_line(text: &str) -> String {
 }
 
 fn hook_class(text: &mut String, system: &System, component: &Component, form: &Form) {
-    let when = match component.timing {
+    let when = match &component.timing {
         Timing::Synchronous { period, .. } => format!("every {}", duration(period * system.tick_ns)),
-        Timing::Asynchronous { awaits: Some(channel) } => {
-            format!("when there is something new in {}", system.channels[channel].drawn)
+        Timing::Asynchronous { awaits } => {
+            let names: Vec<&str> = awaits.channels.iter().map(|channel| &*system.channels[*channel].drawn).collect();
+            match (&names[..], awaits.needs) {
+                ([], _) => "again and again".to_string(),
+                (_, Needs::All) => format!("when there is something new in {}", names.join(" and in ")),
+                (_, Needs::Any) => format!("when there is something new in {}", names.join(" or in ")),
+            }
         }
-        Timing::Asynchronous { awaits: None } => "again and again".to_string(),
     };
     let _ = write!(text, "\n/// {}: {when}.\nstruct {} {{\n", one_line(&component.text), pascal(&component.name));
     let (read, written) = ends(component);
@@ -149,11 +153,12 @@ fn plan(text: &mut String, system: &System, form: &Form) {
             0 => String::new(),
             jitter => format!(".jitter_ticks = {jitter}, "),
         };
-        let awaits = match component.timing {
-            Timing::Asynchronous { awaits: Some(channel) } => {
-                format!(", .awaits = \"{}\"", system.channels[channel].name)
+        let awaits = match &component.timing {
+            Timing::Asynchronous { awaits } => {
+                let said = awaits.said(|channel| &system.channels[channel].name);
+                said.map_or(String::new(), |said| format!(", .awaits = \"{}\"", said.trim_start_matches("awaits ")))
             }
-            _ => String::new(),
+            Timing::Synchronous { .. } => String::new(),
         };
         let _ = writeln!(
             text,
@@ -197,8 +202,8 @@ fn class(text: &mut String, system: &System, form: &Form) {
         system.components.len() + 1
     );
     for component in &system.components {
-        if let Timing::Asynchronous { awaits: Some(channel) } = component.timing {
-            let channel = &system.channels[channel].name;
+        for channel in component.timing.awaited() {
+            let channel = &system.channels[*channel].name;
             let _ = writeln!(text, "        {channel}_channel_.wakes({}_task_.trigger());", component.name);
         }
     }
@@ -297,7 +302,7 @@ fn members(text: &mut String, system: &System, form: &Form) {
 fn task(text: &mut String, system: &System, index: usize, component: &Component) {
     let name = &component.name;
     let step = format!("[this](const Cycle& cycle) {{ {name}_cycle(cycle); }}");
-    let Timing::Asynchronous { awaits } = component.timing else {
+    let Timing::Asynchronous { awaits } = &component.timing else {
         let _ = writeln!(
             text,
             "    groundstate::PeriodicTask<C> {name}_task_{{this->clock(), \"{name}\", this->period({index}),\n        \
@@ -305,12 +310,15 @@ fn task(text: &mut String, system: &System, index: usize, component: &Component)
         );
         return;
     };
-    let available = match awaits {
-        None => "true".to_string(),
-        Some(channel) => match system.channels[channel].kind {
-            ChannelKind::Queue { .. } => format!("!{}_channel_.empty()", system.channels[channel].name),
-            _ => format!("{}_channel_.available()", system.channels[channel].name),
-        },
+    let has_new = |channel: &usize| match &system.channels[*channel] {
+        Channel { name, kind: ChannelKind::Queue { .. }, .. } => format!("!{name}_channel_.empty()"),
+        Channel { name, .. } => format!("{name}_channel_.available()"),
+    };
+    let new: Vec<String> = awaits.channels.iter().map(has_new).collect();
+    let available = match (&new[..], awaits.needs) {
+        ([], _) => "true".to_string(),
+        (_, Needs::All) => new.join(" && "),
+        (_, Needs::Any) => new.join(" || "),
     };
     let _ = writeln!(
         text,

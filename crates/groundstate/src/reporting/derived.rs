@@ -83,12 +83,12 @@ activities:
 fn tasks(out: &mut String, system: &System) {
     out.push_str("tasks:\n  each:\n");
     for component in &system.components {
-        let caption = match component.timing {
+        let caption = match &component.timing {
             Timing::Synchronous { .. } => String::new(),
-            Timing::Asynchronous { awaits: Some(channel) } => {
-                format!("awaits {}", spoken(&system.channels[channel].name))
-            }
-            Timing::Asynchronous { awaits: None } => "again and again".to_string(),
+            Timing::Asynchronous { awaits } => match awaits.said(|channel| &system.channels[channel].name) {
+                Some(said) => spoken(&said),
+                None => "again and again".to_string(),
+            },
         };
         let (id, name) = (&component.name, quoted(&name(component)));
         let _ = writeln!(out, "    {id}: {{ name: {name}, caption: {} }}", quoted(&caption));

@@ -15,6 +15,7 @@ mod nest;
 mod place;
 mod system;
 mod text;
+mod value;
 
 use std::collections::BTreeMap;
 

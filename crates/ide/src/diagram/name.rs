@@ -53,9 +53,7 @@ impl Work {
                         own.next().into_iter().collect()
                     }
                     PHASE if !is_elaboration(&child) => own.next().into_iter().collect(),
-                    PATH_STOP | SEQUENCE | COMPONENT_KIND | CHANNEL | CHANNEL_KIND | AGE_BOUND | CONNECTION => {
-                        own.collect()
-                    }
+                    PATH_STOP | SEQUENCE | AWAITS | CHANNEL | CHANNEL_KIND | AGE_BOUND | CONNECTION => own.collect(),
                     _ => continue,
                 };
                 let named = named.iter().filter(|token| token.text() == name);

@@ -5,12 +5,11 @@
 //! period of whole ticks) is for the faults of the chart.
 
 use syntax::SyntaxKind::{self, *};
-use syntax::ast::{
-    AstNode, Channel, ChannelKind, ChartFile, Component, ComponentKind, Phase, PhaseKind, Quantity, SystemChart,
-};
-use syntax::{FileId, Severity, SyntaxNode, SyntaxToken, parse_chart};
+use syntax::ast::{AstNode, Channel, ChannelKind, Component, ComponentKind, Phase, PhaseKind, Quantity, SystemChart};
+use syntax::{SyntaxNode, SyntaxToken};
 
-use super::arrow::words;
+use super::text::extent;
+use super::value::{awaited, domain, length, name, number, read, tolerance};
 use super::{Section, Work};
 
 /// A property of a part of a system.
@@ -28,7 +27,7 @@ pub enum Property {
     Deadline,
     /// Of a synchronous component: how many deadlines it may miss, as in `1 of 20`.
     Misses,
-    /// Of an asynchronous component: the channel whose data it awaits.
+    /// Of an asynchronous component: the channel whose data it awaits; `all` or `any`, and several.
     Awaits,
     /// Of a channel: `swinging buffer`, `queue` or `shared value`.
     Kind,
@@ -64,90 +63,8 @@ fn range(token: &SyntaxToken) -> Bytes {
     token.text_range().into()
 }
 
-/// From the first word of a node to its last one.
-fn extent(node: &SyntaxNode) -> Bytes {
-    let tokens = words(node);
-    let start = tokens.first().map_or(0, |token| range(token).start);
-    start..tokens.last().map_or(start, |token| range(token).end)
-}
-
 fn word(node: &SyntaxNode, kind: SyntaxKind) -> Option<SyntaxToken> {
     node.children_with_tokens().filter_map(|element| element.into_token()).find(|token| token.kind() == kind)
-}
-
-/// What is between the words of a probe, if the probe has that and nothing else.
-fn alone(
-    before: &str,
-    value: &str,
-    after: &str,
-    found: impl Fn(&SystemChart) -> Option<SyntaxNode>,
-) -> Result<String, ()> {
-    let value = value.trim();
-    // A comment would take along what stands behind the value.
-    if value.is_empty() || value.contains(['\n', '\r', '\u{0}']) || value.contains("//") || value.contains("/*") {
-        return Err(());
-    }
-    let text = format!("chart A system s {before} {value} {after} endsystem");
-    let parse = parse_chart(FileId(0), &text);
-    let system = ChartFile::cast(parse.syntax()).and_then(|file| file.systems().next());
-    let node = system.as_ref().and_then(found).ok_or(())?;
-    let is_it = text.get(extent(&node)) == Some(value);
-    match is_it && !parse.diagnostics.iter().any(|fault| fault.severity == Severity::Error) {
-        true => Ok(value.to_string()),
-        false => Err(()),
-    }
-}
-
-/// A length of time as charts write it; one that `varies` may have two ends.
-fn length(value: &str, varies: bool) -> Result<String, String> {
-    let time = |system: &SystemChart| Some(system.components().next()?.phases().next()?.time()?.syntax().clone());
-    let probe = alone("component c asynchronous elaborate e", value, "endcomponent", time);
-    let known = |value: &str| {
-        let unit = value.trim_start_matches(|c: char| c.is_ascii_digit() || matches!(c, '.' | ' ' | '\t'));
-        matches!(unit, "ns" | "us" | "ms" | "s")
-    };
-    match probe {
-        Ok(value) if known(&value) && (varies || !value.contains("..")) => Ok(value),
-        _ if varies => Err(format!("`{value}` is no time: a number and ns, us, ms or s, as in `2.5 ms` or `3..9 ms`")),
-        _ => Err(format!("`{value}` is no time: a number and ns, us, ms or s, as in `2.5 ms`")),
-    }
-}
-
-/// How many deadlines may be missed, as in `1 of 20`.
-fn tolerance(value: &str) -> Result<String, String> {
-    let stated = |system: &SystemChart| Some(system.components().next()?.kind()?.tolerance()?.syntax().clone());
-    let value = format!("misses {}", value.trim());
-    let probe = alone("component c synchronous period 1 ms", &value, "endcomponent", stated);
-    probe.map_err(|()| format!("`{}` does not say how many deadlines may be missed, as `1 of 20` does", &value[7..]))
-}
-
-fn domain(value: &str) -> Result<String, String> {
-    let of = |system: &SystemChart| Some(system.devices().next()?.message()?.syntax().clone());
-    alone("sensor x :", value, "sensor y", of).map_err(|()| format!("`{value}` is no domain"))
-}
-
-fn number(value: &str) -> Result<String, String> {
-    let value = value.trim();
-    match !value.is_empty() && value.len() < 10 && value.bytes().all(|byte| byte.is_ascii_digit()) {
-        true => Ok(value.to_string()),
-        false => Err(format!("`{value}` is no whole number")),
-    }
-}
-
-/// A name of something that is there, or of a phase. Words of charts may be names where a name is expected; whether one is, shows what
-/// the text then says ([`Work::says`]).
-fn name(value: &str) -> Result<String, String> {
-    let value = value.trim();
-    let begins = value.starts_with(|c: char| c.is_ascii_alphabetic());
-    match begins && value.bytes().all(|byte| byte.is_ascii_alphanumeric() || byte == b'_') {
-        true => Ok(value.to_string()),
-        false => Err(format!("`{value}` is no name: a letter first, then letters, digits and _")),
-    }
-}
-
-/// What is set anew, as it may be written; none takes it away.
-fn read(value: Option<&str>, read: impl Fn(&str) -> Result<String, String>) -> Result<Option<String>, String> {
-    value.map(str::trim).filter(|value| !value.is_empty()).map(read).transpose()
 }
 
 impl Work {
@@ -185,7 +102,7 @@ impl Work {
         self.select = vec![id.to_string()];
         self.change(id, property, value)?;
         match (property, value.map(str::trim).filter(|value| !value.is_empty())) {
-            (Property::Awaits | Property::Master | Property::PhaseName(_) | Property::PhaseMachine(_), Some(value))
+            (Property::Master | Property::PhaseName(_) | Property::PhaseMachine(_), Some(value))
                 if self.says(id, property)?.as_deref() != Some(value) =>
             {
                 Err(format!("`{value}` cannot stand here: it is a word of charts"))
@@ -197,7 +114,6 @@ impl Work {
     /// The name that a property has in the text.
     fn says(&self, id: &str, property: Property) -> Result<Option<String>, String> {
         let found = match property {
-            Property::Awaits => self.timing(id)?.awaits(),
             Property::Master => self.channel_kind(id)?.master(),
             Property::PhaseName(at) => {
                 let phase = self.phase(id, at)?;
@@ -253,8 +169,9 @@ impl Work {
                 if timing.is_synchronous() {
                     return Err("only an asynchronous component awaits data".to_string());
                 }
-                let value = read(value, name)?;
-                self.set_behind(timing.syntax(), AWAITS_KW, "awaits", timing.awaits(), value.as_deref());
+                let value = read(value, awaited)?;
+                let end = extent(timing.syntax()).end;
+                self.set_last(timing.awaits().map(|one| extent(one.syntax())), end, value);
                 Ok(())
             }
             Property::Kind => self.set_kind(id, value.unwrap_or_default()),
@@ -369,8 +286,7 @@ impl Work {
     fn set_timing(&mut self, id: &str, value: &str) -> Result<(), String> {
         let timing = self.timing(id)?;
         let node = timing.syntax();
-        let named = word(node, AWAITS_KW).zip(timing.awaits());
-        let awaits = named.map(|(word, name)| range(&word).start..range(&name).end);
+        let awaits = timing.awaits().map(|one| extent(one.syntax()));
         let quantity = |kind| {
             let (word, length) = (word(node, kind)?, timing.quantity(kind)?);
             Some(range(&word).start..extent(length.syntax()).end)

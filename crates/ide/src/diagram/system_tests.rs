@@ -79,6 +79,12 @@ fn times_of_components() {
     check(&set("act", Property::PhaseFresh(0), "9 ms"), &take);
     check(&none("act", Property::Awaits), &[act, "+component act asynchronous"]);
     check(&set("act", Property::Awaits, "other"), &[act, "+component act asynchronous awaits other"]);
+    let several = "+component act asynchronous awaits all seen, other";
+    check(&set("act", Property::Awaits, "all seen, other"), &[act, several]);
+    assert!(
+        after(&set("act", Property::Awaits, "any seen, other"))
+            .is_ok_and(|text| text.contains("awaits any seen, other\n"))
+    );
 }
 
 #[test]
@@ -181,7 +187,9 @@ fn what_is_no_value_is_refused() {
     assert_eq!(told(&set("seen", Property::Size, "2 master look")), "`2 master look` is no whole number");
     assert_eq!(told(&set("seen", Property::Domain, "Integer from a")), "`Integer from a` is no domain");
     assert_eq!(told(&set("look", Property::PhaseMachine(1), "M")), "only an elaboration is done by a machine");
-    assert!(told(&set("act", Property::Awaits, "a b")).starts_with("`a b` is no name"));
+    assert!(told(&set("act", Property::Awaits, "a b")).starts_with("`a b` names no channels"));
+    assert!(told(&set("act", Property::Awaits, "all seen,")).starts_with("`all seen,` names no channels"));
+    assert!(told(&set("act", Property::Awaits, "seen read other")).starts_with("`seen read other` names no channels"));
     // A word of charts may be a name; where it would be read as that word, it is refused.
     assert!(after(&set("act", Property::Awaits, "state")).is_ok_and(|text| text.contains("awaits state\n")));
     for word in ["endcomponent", "endsystem"] {

@@ -163,6 +163,13 @@ fn range(token: &SyntaxToken) -> std::ops::Range<usize> {
     token.text_range().into()
 }
 
+/// From the first word of a node to its last one.
+pub(super) fn extent(node: &SyntaxNode) -> std::ops::Range<usize> {
+    let tokens = words(node);
+    let start = tokens.first().map_or(0, |token| range(token).start);
+    start..tokens.last().map_or(start, |token| range(token).end)
+}
+
 /// A text as charts write it.
 pub(super) fn quoted(text: &str) -> String {
     let mut out = String::from("\"");

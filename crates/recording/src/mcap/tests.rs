@@ -175,6 +175,23 @@ fn a_run_that_ended_early_says_why() {
 }
 
 #[test]
+fn what_wakes_a_task() {
+    let read = |text: &str| Awaited::read(text).map(|awaits| (awaits.to_string(), awaits.channels.len(), awaits.all));
+    assert_eq!(read("frames"), Some(("frames".to_string(), 1, true)));
+    assert_eq!(read("all"), Some(("all".to_string(), 1, true)));
+    assert_eq!(read("all frames, poses"), Some(("all frames, poses".to_string(), 2, true)));
+    assert_eq!(read("any frames,poses, all"), Some(("any frames, poses, all".to_string(), 3, false)));
+    for wrong in
+        ["", "all ", "any frames", "frames, poses", "some frames, poses", "all frames,, poses", "all frames, x y"]
+    {
+        assert_eq!(read(wrong), None, "{wrong}");
+    }
+    let head = about("groundstate", &[("tick_ns", "1000"), ("pace", "real"), ("awaits task", "frames, poses")]);
+    let said = "it does not say in names of channels what task awaits";
+    assert_eq!(Recording::read(&[MAGIC, &head, &channel(0, "/task")].concat()), Err(Malformed(said.to_string())));
+}
+
+#[test]
 fn the_head_speaks_of_tasks_before_it_and_behind_it() {
     let stated = [("tick_ns", "1000"), ("pace", "real"), ("awaits other", "frames")];
     let times = [("period_ns task", "7000"), ("offset_ns task", "0"), ("deadline_ns task", "5000")];
@@ -184,7 +201,7 @@ fn the_head_speaks_of_tasks_before_it_and_behind_it() {
     let read = before.expect("a recording");
     assert_eq!(behind, Ok(read.clone()));
     let rhythm = Rhythm { period_ns: 7000, offset_ns: 0, deadline_ns: 5000 };
-    assert_eq!((read.tracks[0].rhythm, read.tracks[1].awaits.as_deref()), (Some(rhythm), Some("frames")));
+    assert_eq!((read.tracks[0].rhythm, read.tracks[1].awaits.clone()), (Some(rhythm), Awaited::read("frames")));
     let said = "it does not say the period, offset and deadline of task in numbers";
     for wrong in
         [&times[..1], &[times[0], times[1], ("deadline_ns task", "x")], &[("period_ns task", "0"), times[1], times[2]]]

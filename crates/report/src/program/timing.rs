@@ -1,8 +1,8 @@
 //! When the cycles of each task were due, began and ended.
 //!
 //! In: a recording. Out: [`TaskTiming`]s. A cycle of a synchronous task is due at its offset and a period after
-//! another; an asynchronous task is due when its producer lets go of the data that it awaits, if it rested then: data
-//! that come while it works do not wake it.
+//! another; an asynchronous task is due when the data that it awaits are let go of, the last of them if it needs several,
+//! if it rested then: data that come while it works do not wake it.
 
 use recording::{Kind, Recording, Track};
 
@@ -19,22 +19,18 @@ fn task(recording: &Recording, track: &Track) -> TaskTiming {
     let mut timing = TaskTiming {
         name: track.task.clone(),
         period_ns: rhythm.map(|rhythm| rhythm.period_ns.max(0) as u64),
-        awaits: track.awaits.clone(),
+        awaits: track.awaits.as_ref().map(ToString::to_string),
         met: rhythm.map(|_| count(&[Kind::Meets])),
         missed: rhythm.map(|_| count(&[Kind::Misses])),
         skips: count(&[Kind::GivesUp, Kind::Refuses]),
         ..TaskTiming::default()
     };
-    let arrivals = track.awaits.as_ref().map_or_else(Vec::new, |channel| arrivals(recording, track, channel));
+    let awaited = track.awaits.as_ref().map(|awaits| Awaits::new(recording, track, awaits));
     let mut rested_ns = i64::MIN;
     for cycle in cycles(recording, track) {
         let due_ns = match rhythm {
             Some(rhythm) => Some(rhythm.offset_ns + rhythm.period_ns.saturating_mul(cycle.number as i64)),
-            None => {
-                let come = arrivals.partition_point(|time| *time <= cycle.begun_ns);
-                // It woke for the first datum that came while it rested.
-                arrivals[..come].iter().copied().skip_while(|time| *time < rested_ns).find(|_| true)
-            }
+            None => awaited.as_ref().and_then(|awaited| awaited.due(cycle.begun_ns, rested_ns)),
         };
         timing.activations += 1;
         if let Some(due_ns) = due_ns {
@@ -47,6 +43,65 @@ fn task(recording: &Recording, track: &Track) -> TaskTiming {
         }
     }
     timing
+}
+
+/// What came on the channels that a task awaits, and what it took of that.
+struct Awaits {
+    all: bool,
+    channels: Vec<Awaited>,
+}
+
+struct Awaited {
+    /// When something new was there.
+    arrivals: Vec<i64>,
+    /// When it was read.
+    readings: Vec<i64>,
+    /// Each message is taken once; otherwise a reading takes the newest datum.
+    is_queue: bool,
+}
+
+impl Awaits {
+    fn new(recording: &Recording, track: &Track, awaits: &recording::Awaited) -> Awaits {
+        let of = |channel: &String| {
+            let own = track.events.iter().filter(|event| *event.object == **channel);
+            let reads = own.filter(|event| match event.kind {
+                Kind::Takes => event.number > 0,
+                kind => matches!(kind, Kind::Reads | Kind::Loads),
+            });
+            let is_queue = track.events.iter().any(|event| event.kind == Kind::Takes && *event.object == **channel);
+            let readings = reads.map(|event| recording.instant_ns(event)).collect();
+            Awaited { arrivals: arrivals(recording, track, channel), readings, is_queue }
+        };
+        Awaits { all: awaits.all, channels: awaits.channels.iter().map(of).collect() }
+    }
+
+    /// When a cycle that began then was due, if the task had rested since that instant.
+    fn due(&self, begun_ns: i64, rested_ns: i64) -> Option<i64> {
+        if self.all && self.channels.len() > 1 {
+            // It woke for the last of the data that it needed, if they were not all there when its cycle before was over.
+            let first = self.channels.iter().map(|channel| channel.unread(begun_ns)).collect::<Option<Vec<i64>>>()?;
+            return first.into_iter().max().filter(|due_ns| (rested_ns..=begun_ns).contains(due_ns));
+        }
+        // It woke for the first datum that came while it rested.
+        let come = |channel: &Awaited| {
+            let from = channel.arrivals.partition_point(|time| *time < rested_ns);
+            channel.arrivals.get(from).copied().filter(|time| *time <= begun_ns)
+        };
+        self.channels.iter().filter_map(come).min()
+    }
+}
+
+impl Awaited {
+    /// When the first datum came that was not read before that instant.
+    fn unread(&self, before_ns: i64) -> Option<i64> {
+        let read = self.readings.partition_point(|time| *time < before_ns);
+        let from = match self.readings[..read].last() {
+            _ if self.is_queue => read,
+            Some(last_ns) => self.arrivals.partition_point(|time| time <= last_ns),
+            None => 0,
+        };
+        self.arrivals.get(from).copied()
+    }
 }
 
 /// When data were there for this task: the instants at which their producer let go of them.
@@ -146,7 +201,7 @@ mod tests {
         };
         let reader = Track {
             task: "servo".into(),
-            awaits: Some("frames".into()),
+            awaits: recording::Awaited::read("frames"),
             events: vec![
                 event(9, "begins", "look", 0),
                 event(60, "ends", "look", 0),
@@ -162,5 +217,39 @@ mod tests {
         assert_eq!((timing.activations, timing.met, timing.wake_ups.count()), (3, None, 2));
         assert_eq!(timing.wake_ups.counts().iter().map(|(ns, n)| (*ns, *n)).collect::<Vec<_>>(), [(4, 1), (6, 1)]);
         assert_eq!(timing.responses.greatest(), Some((55, 5)));
+    }
+
+    #[test]
+    fn a_task_that_awaits_several_channels_wakes_for_the_last_or_the_first() {
+        let writer = |task: &str, channel: &str, times: &[i64]| Track {
+            task: task.into(),
+            events: times.iter().map(|time| event(*time, "stores", channel, 0)).collect(),
+            ..Track::default()
+        };
+        let reader = |awaits: &str| {
+            let cycle = |begun_ns: i64, number: u64| {
+                [
+                    event(begun_ns, "begins", "look", number),
+                    event(begun_ns, "loads", "frames", 1),
+                    event(begun_ns + 2, "loads", "poses", 1),
+                    event(begun_ns + 10, "ends", "match", number),
+                ]
+            };
+            let events = [cycle(35, 0), cycle(72, 1), cycle(82, 2)].concat();
+            Track { task: "fuse".into(), awaits: recording::Awaited::read(awaits), events, ..Track::default() }
+        };
+        let wake_ups = |awaits: &str| {
+            // The third cycle needs what came before the second one was over.
+            let tracks = vec![
+                writer("camera", "frames", &[30, 60, 75]),
+                writer("encoder", "poses", &[10, 20, 66, 76]),
+                reader(awaits),
+            ];
+            let all = tasks(&Recording { tracks, ..Recording::default() });
+            all[2].wake_ups.counts().iter().map(|(ns, count)| (*ns, *count)).collect::<Vec<_>>()
+        };
+        assert_eq!(wake_ups("all frames, poses"), [(5, 1), (6, 1)]);
+        assert_eq!(wake_ups("any frames, poses"), [(12, 1), (25, 1)]);
+        assert_eq!(wake_ups("frames"), [(5, 1), (12, 1)]);
     }
 }

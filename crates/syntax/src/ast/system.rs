@@ -13,8 +13,10 @@ nodes! {
     Processors = PROCESSORS,
     /// `component NAME "text" KIND … endcomponent`
     Component = COMPONENT,
-    /// `synchronous period Q jitter Q offset Q deadline Q misses N of N`, `asynchronous awaits NAME`
+    /// `synchronous period Q jitter Q offset Q deadline Q misses N of N`, `asynchronous awaits all NAME, NAME`
     ComponentKind = COMPONENT_KIND,
+    /// `awaits NAME`, `awaits all NAME, NAME`, `awaits any NAME, NAME`
+    Awaits = AWAITS,
     /// `misses N of N`: how many deadlines a task may miss.
     Tolerance = TOLERANCE,
     /// `every Q fresh`: how often a reading brings something new.
@@ -131,9 +133,9 @@ impl ComponentKind {
     pub fn is_synchronous(&self) -> bool {
         token(self.syntax(), SYNCHRONOUS_KW).is_some()
     }
-    /// The channel whose data an asynchronous component awaits.
-    pub fn awaits(&self) -> Option<SyntaxToken> {
-        token(self.syntax(), GENERIC_ID)
+    /// What an asynchronous component awaits.
+    pub fn awaits(&self) -> Option<Awaits> {
+        child(self.syntax())
     }
     /// How many deadlines it may miss.
     pub fn tolerance(&self) -> Option<Tolerance> {
@@ -150,6 +152,17 @@ impl ComponentKind {
             next = element.next_sibling_or_token();
         }
         None
+    }
+}
+
+impl Awaits {
+    /// `all` or `any`, before several channels.
+    pub fn quantifier(&self) -> Option<SyntaxToken> {
+        tokens(self.syntax()).find(|token| matches!(token.kind(), ALL_KW | ANY_KW))
+    }
+    /// The channels whose data start a cycle.
+    pub fn channels(&self) -> impl Iterator<Item = SyntaxToken> {
+        names(self.syntax())
     }
 }
 

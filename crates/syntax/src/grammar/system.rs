@@ -126,12 +126,12 @@ fn component(p: &mut Parser<'_>) {
     p.finish();
 }
 
-/// `synchronous period Q jitter Q offset Q deadline Q misses N of N`, `asynchronous awaits NAME`
+/// `synchronous period Q jitter Q offset Q deadline Q misses N of N`, `asynchronous awaits all NAME, NAME`
 fn kind(p: &mut Parser<'_>) {
     p.start(COMPONENT_KIND);
     if eat_word(p, ASYNCHRONOUS_KW) {
-        if eat_word(p, AWAITS_KW) {
-            shape_name(p);
+        if keyword(p, &[AWAITS_KW]).is_some() {
+            awaits(p);
         }
         // Without a period it means nothing; the chart's reader says so.
         if eat_word(p, JITTER_KW) {
@@ -150,6 +150,22 @@ fn kind(p: &mut Parser<'_>) {
             tolerance(p);
         }
     }
+    p.finish();
+}
+
+/// `awaits NAME`, `awaits all NAME, NAME`, `awaits any NAME, NAME`
+fn awaits(p: &mut Parser<'_>) {
+    p.start(AWAITS);
+    p.bump_as(AWAITS_KW);
+    // A channel may have these names, too: then no other name follows.
+    let next = p.next_text();
+    let ends = [READ_KW, ELABORATE_KW, WRITE_KW, ENDCOMPONENT_KW, JITTER_KW];
+    let names =
+        next.starts_with(|c: char| c.is_alphabetic() || c == '_') && !ends.iter().any(|end| end.text() == Some(next));
+    if let Some(word) = keyword(p, &[ALL_KW, ANY_KW]).filter(|_| names) {
+        p.bump_as(word);
+    }
+    while shape_name(p) && p.eat(COMMA) {}
     p.finish();
 }
 
@@ -285,7 +301,7 @@ mod tests {
                   COMPONENT(
                     component
                     vs
-                    COMPONENT_KIND(asynchronous awaits frames)
+                    COMPONENT_KIND(asynchronous AWAITS(awaits frames))
                     PHASE(read frames)
                     endcomponent)
                   CHANNEL(
@@ -301,6 +317,24 @@ mod tests {
                   CONNECTION(camera -> grab)
                   endsystem)"#]],
         );
+    }
+
+    #[test]
+    fn what_is_awaited() {
+        let kind = |awaits: &str| {
+            let text =
+                chart(&format!("chart C system s component c asynchronous {awaits} read a endcomponent endsystem"));
+            let start = text.find("AWAITS(").unwrap_or(0);
+            let end = text[start..].find("PHASE").map_or(text.len(), |length| start + length);
+            text[start..end].split_whitespace().collect::<Vec<_>>().join(" ")
+        };
+        assert_eq!(kind("awaits a"), "AWAITS(awaits a))");
+        assert_eq!(kind("awaits all a, b"), "AWAITS(awaits all a , b))");
+        assert_eq!(kind("awaits any a, b, all"), "AWAITS(awaits any a , b , all))");
+        assert_eq!(kind("awaits a, b"), "AWAITS(awaits a , b))");
+        // A channel of that name.
+        assert_eq!(kind("awaits all"), "AWAITS(awaits all))");
+        assert_eq!(kind("awaits any, all"), "AWAITS(awaits any , all))");
     }
 
     #[test]

@@ -48,11 +48,16 @@ impl<'t> Parser<'t> {
 
     /// The next token is this name.
     pub(crate) fn is_word_next(&self, word: &str) -> bool {
+        self.peek(1) == FUNCTION_ID && self.next_text() == word
+    }
+
+    /// The text of the next token.
+    pub(crate) fn next_text(&self) -> &'t str {
         let mut at = (self.at + 1).min(self.tokens.len() - 1);
         while self.is_skipped(at) {
             at += 1;
         }
-        self.tokens[at].kind == FUNCTION_ID && self.text_of(at) == word
+        self.text_of(at)
     }
 
     pub(crate) fn token_text(&self) -> &'t str {

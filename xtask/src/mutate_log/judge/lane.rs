@@ -72,7 +72,7 @@ impl<'a> Lane<'a> {
             }
             let begins = next!(self.expect(Kind::Begins, &phase.name));
             self.is_cycle(begins, cycle)?;
-            if let (0, Timing::Synchronous { period, offset, .. }) = (number, component.timing) {
+            if let (0, &Timing::Synchronous { period, offset, .. }) = (number, &component.timing) {
                 let due_ns = (offset + cycle * period) as i64 * self.plan.tick_ns;
                 if begins.time_ns < due_ns {
                     return Err("its cycle begins before it is due".to_string());

@@ -6,7 +6,7 @@
 
 use std::collections::BTreeSet;
 
-use chart::system::Timing;
+use chart::system::{Needs, Timing};
 use recording::{Event, Kind};
 
 use super::channel::Channel;
@@ -85,14 +85,16 @@ impl<'a> Search<'a> {
     /// A cycle of an asynchronous task begins when there are data; once there are, they stay.
     fn is_woken(&self, lane: usize, event: &Event, state: &State) -> bool {
         let component = &self.plan.system.components[lane];
-        match component.timing {
-            Timing::Asynchronous { awaits: Some(channel) }
-                if event.kind == Kind::Begins
-                    && component.phases.first().is_some_and(|first| *first.name == *event.object) =>
-            {
-                state.channels[channel].wakes()
+        let is_first = component.phases.first().is_some_and(|first| *first.name == *event.object);
+        match &component.timing {
+            Timing::Asynchronous { awaits } if event.kind == Kind::Begins && is_first => {
+                let mut channels = awaits.channels.iter().map(|channel| state.channels[*channel].wakes());
+                match awaits.needs {
+                    Needs::All => channels.all(|wakes| wakes),
+                    Needs::Any => channels.any(|wakes| wakes),
+                }
             }
-            _ => true,
+            Timing::Asynchronous { .. } | Timing::Synchronous { .. } => true,
         }
     }
 
