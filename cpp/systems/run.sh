@@ -120,6 +120,14 @@ counted "releases of camera" 0 "0.0 us"
 counted "deadlines missed by control" 0 0
 expect 0 "$groundstate" report Watched.asm --run "$watched/run.mcap" -o "$watched/report.html"
 grep -q "age from camera to arm" "$watched/report.html" || fail "the report does not show what is bounded"
+# What the program took becomes the distribution of a run of the model: here all is the longest, in time.
+expect 0 "$groundstate" report Watched.asm --run "$watched/run.mcap" --write-inputs "$watched/times.yaml"
+said "^endsNow(camera): 200 elaborations\$"
+[ "$(grep -c 'after' "$watched/times.yaml")" = 4 ] || fail "not four distributions"
+grep -qx '  endsNow(vision): after 16:133' "$watched/times.yaml" || { cat "$watched/times.yaml"; fail "lengths are not counted"; }
+"$groundstate" run Watched.asm --input "$watched/times.yaml" -i --show none <"$watched/asked" >"$watched/model" 2>&1
+in_model "way_oldest(bound1_way1)" 94
+in_model "reading_longest(control_read_marks_fresh)" 32
 # Tighter bounds, and deadlines that no cycle meets: all that is outside is counted.
 sed -e "s|import ../../|import $(realpath ../..)/|" -e 's/within 60 ms/within 46.5 ms/' -e 's/every 28 ms/every 15.5 ms/' -e 's/deadline 3.5 ms/deadline 2 ms/' \
     Watched.chart >"$watched/Watched.chart"

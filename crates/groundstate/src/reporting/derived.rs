@@ -27,19 +27,12 @@ pub fn specification_beside<F: Files + Loader>(
     program: &Arc<Program>,
     files: &mut F,
 ) -> Result<SourceFile, (String, Absent)> {
-    let beside = |extension: &str| Path::new(model).with_extension(extension).to_string_lossy().into_owned();
-    let mut read = |path: String| match files.read(&path) {
-        Ok(source) => Ok(Some(source)),
-        Err(Absent::Missing) => Ok(None),
-        Err(absent) => Err((path, absent)),
-    };
-    if let Some(written) = read(beside("report.yaml"))? {
+    if let Some(written) = beside(model, "report.yaml", files)? {
         return Ok(written);
     }
-    let path = beside("chart");
+    let path = path_beside(model, "chart");
     let file = Path::new(&path).file_name().unwrap_or_default().to_string_lossy().into_owned();
-    let loaded = read(path.clone())?.map(|source| chart::load(source, files));
-    let chart = loaded.filter(|loaded| !has_errors(&loaded.diagnostics)).map(|loaded| loaded.chart);
+    let chart = chart_beside(model, files)?;
     let of_system = chart.as_ref().and_then(|chart| specification(chart, &file));
     Ok(match of_system {
         Some(text) => SourceFile::new(format!("<what {path} says>"), text),
@@ -48,6 +41,33 @@ pub fn specification_beside<F: Files + Loader>(
             SourceFile::new(format!("<what {model} says>"), text)
         }
     })
+}
+
+/// The system that `MODEL.chart` beside a model draws; none if there is no chart, or one with errors.
+///
+/// # Errors
+/// There is a chart, and it cannot be read: its path, and why.
+pub fn system_beside<F: Files + Loader>(model: &str, files: &mut F) -> Result<Option<System>, (String, Absent)> {
+    Ok(chart_beside(model, files)?.and_then(|chart| chart.system))
+}
+
+fn chart_beside<F: Files + Loader>(model: &str, files: &mut F) -> Result<Option<Chart>, (String, Absent)> {
+    let loaded = beside(model, "chart", files)?.map(|source| chart::load(source, files));
+    Ok(loaded.filter(|loaded| !has_errors(&loaded.diagnostics)).map(|loaded| loaded.chart))
+}
+
+fn path_beside(model: &str, extension: &str) -> String {
+    Path::new(model).with_extension(extension).to_string_lossy().into_owned()
+}
+
+/// The file with this extension beside a model, if it is there.
+fn beside(model: &str, extension: &str, files: &mut impl Files) -> Result<Option<SourceFile>, (String, Absent)> {
+    let path = path_beside(model, extension);
+    match files.read(&path) {
+        Ok(source) => Ok(Some(source)),
+        Err(Absent::Missing) => Ok(None),
+        Err(absent) => Err((path, absent)),
+    }
 }
 
 fn specification(chart: &Chart, file: &str) -> Option<String> {

@@ -5,6 +5,7 @@
 //! run.
 
 mod charts;
+mod counted;
 mod derived;
 mod evidence;
 mod of_model;
@@ -25,7 +26,8 @@ use crate::workspace::Files;
 use crate::{Overlay, diagnose_fault, has_errors};
 use watch::Watch;
 
-pub use derived::specification_beside;
+pub use counted::{Counted, counted_inputs, counted_times};
+pub use derived::{specification_beside, system_beside};
 pub use evidence::{reported_coverage, reported_scenario};
 pub use recorded::{held_in_words, run_name};
 pub use watched::Watched;

@@ -8,8 +8,9 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use ::report::{Fact, Program, ProgramRun, RunSummary, render_program};
+use chart::system::System;
 use groundstate::job::Conformed;
-use groundstate::reporting::{held_in_words, run_name};
+use groundstate::reporting::{Counted, counted_inputs, counted_times, held_in_words, run_name, system_beside};
 use recording::Recording;
 
 use crate::conform::{hold, read};
@@ -31,6 +32,8 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
         facts: Vec::new(),
     };
     let mut worst = Exit::Good;
+    let system = arguments.write_inputs.as_ref().map(|_| varying(shell, &arguments.model)).transpose()?;
+    let mut recordings = Vec::new();
     let fact = |label: &str, value: String| Fact { label: label.to_string(), value };
     program.facts.push(fact("Model", arguments.model.display().to_string()));
     for path in &arguments.runs {
@@ -69,13 +72,42 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
         run.closed_loop = closed_loop;
         program.facts.push(fact(&format!("Run in {}", run.name), path.display().to_string()));
         program.runs.push(run);
+        if system.is_some() {
+            recordings.push(recording);
+        }
     }
     program.facts.push(fact("Groundstate", env!("CARGO_PKG_VERSION").to_string()));
     if let Some(path) = &arguments.output {
         write_beside(path, &render_program(&program))?;
     }
-    tell(shell, &program, arguments.output.as_deref())?;
+    let counted = system.map(|system| counted_times(&system, &recordings)).unwrap_or_default();
+    if let Some(path) = &arguments.write_inputs {
+        let from: Vec<String> = arguments.runs.iter().map(|path| path.display().to_string()).collect();
+        write_beside(path, &counted_inputs(&counted, &from))?;
+    }
+    let written = [&arguments.output, &arguments.write_inputs].into_iter().flatten();
+    tell(shell, &program, &counted, written.map(|path| path.display().to_string()).collect())?;
     Ok(worst)
+}
+
+/// The system of the chart beside the model, in which some time varies.
+fn varying(shell: &mut Shell, model: &Path) -> Result<System, Failure> {
+    let chart = model.with_extension("chart");
+    let found = system_beside(&model.to_string_lossy(), &mut shell.disk());
+    let found = found.map_err(|(path, absent)| Failure::usage(absent.told(&path)))?;
+    let nothing = |reason: &str| {
+        let message = format!("there are no inputs to write: {reason}");
+        Failure::usage_with_help(
+            message,
+            "an elaboration varies as in `elaborate look 3..9 ms`, a release as in `jitter 0.2 ms`",
+        )
+    };
+    let system = found.ok_or_else(|| nothing(&format!("{} draws no system, or has faults", chart.display())))?;
+    let varies = system.components.iter().flat_map(|component| &component.phases).any(|phase| phase.least < phase.time);
+    match varies || system.has_jitter() {
+        true => Ok(system),
+        false => Err(nothing(&format!("no time varies in {}", chart.display()))),
+    }
 }
 
 /// The recording, and what else the file says about the run.
@@ -108,14 +140,21 @@ fn find(shell: &Shell, path: &Path) -> Result<(Recording, RunTold), Failure> {
     Ok((recording, told))
 }
 
-fn tell(shell: &mut Shell, program: &Program, written: Option<&Path>) -> Result<(), Failure> {
-    let written: Vec<String> = written.iter().map(|path| path.display().to_string()).collect();
+fn tell(shell: &mut Shell, program: &Program, counted: &[Counted], written: Vec<String>) -> Result<(), Failure> {
     if shell.json() {
         return shell.object(&wire::ProgramReported::new(program, written));
     }
     if shell.talks() {
         let options = RunSummary { colour: shell.color_out() };
         write!(shell.out(), "{}", ::report::summarise_program(program, &options))?;
+        for one in counted {
+            let Counted { input, what, below, beyond, .. } = one;
+            let outside = match below + beyond {
+                0 => String::new(),
+                outside => format!("; {outside} are outside the chart's bounds, and count as the bound"),
+            };
+            writeln!(shell.out(), "{input}: {} {what}{outside}", one.number())?;
+        }
         for path in written {
             writeln!(shell.out(), "written: {path}")?;
         }
