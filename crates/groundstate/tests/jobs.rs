@@ -157,6 +157,56 @@ fn a_violation_is_told_with_what_is_wrong_and_can_be_taken_back() {
 }
 
 #[test]
+fn steps_that_nobody_looks_at_are_made_together_and_their_faults_told() {
+    // A walk up and down, which leaves the bound now and then, and one that goes on until a step cannot be made.
+    let walk = counter().replace("n < 3", "n mod 50 != 49");
+    let dividing = walk.replace("then n := n + 1", "then n := n + idiv(6 - n, 6 - n)");
+    for (text, invariants) in [
+        (&walk, simulate::Invariants::Stop),
+        (&walk, simulate::Invariants::Report),
+        (&walk, simulate::Invariants::Ignore),
+        (&dividing, simulate::Invariants::Report),
+    ] {
+        let loaded = loaded(text);
+        let told = |keep: bool, dues: usize| {
+            let options = simulate::Options { steps: Some(30_000), keep, invariants, ..simulate::Options::default() };
+            let mut looked = 0;
+            let due = Box::new(move || {
+                looked += 1;
+                dues > 0 && looked % dues == 0
+            });
+            let request =
+                RunRequest { options, asks_choices: false, paused: false, states: false, due, ..request(&loaded) };
+            let inputs = Box::new(|inputs: simulate::Inputs| {
+                inputs.with(simulate::RandomSource::new(7, simulate::Bounds::default()))
+            });
+            let (job, _remote) =
+                job::run(RunRequest { inputs, asks_inputs: None, ..request }, Cancel::new()).expect("a thread");
+            let mut told = Vec::new();
+            while let Some(event) = job.next_event() {
+                match event {
+                    RunEvent::Record { record, faults, steps, .. } => match *record {
+                        Record::Step(_) if faults.is_empty() => {}
+                        Record::Step(step) => told.push((steps, step.step, format!("{:?}", step.violations))),
+                        Record::Attempt(step) => told.push((steps, step.step, format!("{faults:?}"))),
+                        Record::End(end) => told.push((steps, 0, format!("{end:?}"))),
+                        Record::Initial { .. } | Record::Back { .. } => {}
+                    },
+                    RunEvent::Progress(_) => {}
+                    other => panic!("{other:?}"),
+                }
+            }
+            (told, job.finish())
+        };
+        let one_by_one = told(true, 0);
+        let divides = one_by_one.0.iter().any(|(_, _, what)| what.contains("DivisionByZero"));
+        assert_eq!(divides, *text == dividing, "{one_by_one:?}");
+        assert_eq!(told(false, 0), one_by_one);
+        assert_eq!(told(false, 3), one_by_one);
+    }
+}
+
+#[test]
 fn a_run_ends_when_it_is_cancelled_or_its_owner_is_gone() {
     // Neither the run nor its one step would end within anybody's patience.
     let steps = "asm Counter\nimport StandardLibrary\nsignature:\n\tcontrolled n: Integer\ndefinitions:\n\

@@ -178,30 +178,46 @@ impl Run {
     /// Makes this many steps, or fewer if the run ends, and keeps no record of them.
     pub fn pass(&mut self, steps: u64) -> Passed {
         let mut passed = Passed::default();
+        while let Some(record) = self.pass_to_record(steps, &mut passed) {
+            if !matches!(record, Record::Initial { .. } | Record::Step(_)) {
+                break;
+            }
+        }
+        passed
+    }
+
+    /// Makes steps, counted in `passed`, until these are as many as `steps`, and gives the first record that says more than that a step was
+    /// made: of a step that violates something, of one that could not be made, of the end. None: all were made, or the run was over.
+    pub fn pass_to_record(&mut self, steps: u64, passed: &mut Passed) -> Option<Record> {
         let mut record = StepRecord::default();
         while passed.steps < steps {
             let bounded = self.options.steps.is_some_and(|steps| self.made >= steps);
             if self.phase != Phase::Running || bounded || self.options.keep {
-                match self.advance() {
-                    Some(Record::Step(step)) => passed.count(summary(&step)),
-                    Some(Record::Initial { .. } | Record::Back { .. }) => {}
-                    Some(Record::Attempt(_) | Record::End(_)) | None => break,
+                let record = self.advance()?;
+                if let Record::Step(step) = &record {
+                    passed.count(summary(step));
                 }
-                continue;
+                return Some(record);
             }
             record.step = self.made + 1;
-            record.violations.clear();
             let made = match self.can_pass() {
-                true => self.pass_unseen(&mut record, steps, &mut passed),
+                true => self.pass_unseen(&mut record, steps, passed),
                 false => self.make(&mut record),
             };
             match made {
                 Made::Unseen => {}
-                Made::Step => passed.count(summary(&record)),
-                Made::Attempt | Made::Other(_) => break,
+                Made::Step => {
+                    passed.count(summary(&record));
+                    if !record.violations.is_empty() {
+                        return Some(Record::Step(record));
+                    }
+                    record.writes.clear();
+                }
+                Made::Attempt => return Some(Record::Attempt(record)),
+                Made::Other(record) => return Some(*record),
             }
         }
-        passed
+        None
     }
 
     /// Whether nothing needs to look at the states between steps.

@@ -5,7 +5,8 @@
 //! run depends only on the request and the commands, not on when they arrive.
 //!
 //! A run makes hundreds of thousands of steps a second. So events are sent in batches, and a run that keeps no records
-//! ([`Options::keep`]) reports a step only if something is wrong in it.
+//! ([`Options::keep`]) reports a step only if something is wrong in it; between two looks at the commands it makes as many steps as
+//! the shell's clock leaves it time for.
 
 use std::cell::RefCell;
 use std::io;
@@ -15,7 +16,7 @@ use std::sync::mpsc::{Receiver, channel};
 
 use machine::{Interrupt, Limits};
 use program::Program;
-use simulate::{Choices, End, Inputs, Options, RandomSource, Record, Run};
+use simulate::{Choices, End, Inputs, Options, Passed, RandomSource, Record, Run};
 use syntax::Sources;
 
 use crate::diagnose_record;
@@ -49,6 +50,9 @@ pub struct RunRequest {
     pub due: Box<dyn FnMut() -> bool + Send>,
 }
 
+/// LIMIT: so many steps are made between two looks at the commands, at most.
+const TOGETHER: u64 = 4_096;
+
 /// Sends every record immediately.
 pub fn at_once() -> Box<dyn FnMut() -> bool + Send> {
     Box::new(|| true)
@@ -70,7 +74,7 @@ pub type RunJob = Job<RunEvent, u64>;
 pub fn run(request: RunRequest, cancel: Cancel) -> io::Result<(RunJob, Remote)> {
     let (sender, commands) = channel();
     let looked_at = cancel.interrupt().clone();
-    let job = Job::start("run", cancel, move |port| go(request, Rc::new(port), commands, looked_at, &mut |_, _| {}))?;
+    let job = Job::start("run", cancel, move |port| go(request, Rc::new(port), commands, looked_at, None))?;
     Ok((job, Remote(sender)))
 }
 
@@ -87,22 +91,29 @@ pub fn report(
     let (sender, commands) = channel();
     let looked_at = cancel.interrupt().clone();
     let job = Job::start("report", cancel, move |port| {
-        go(request, Rc::new(port), commands, looked_at, &mut |record, run| reporter.note(record, run, &sources));
+        let follow = &mut |record: &Record, run: &mut Run| reporter.note(record, run, &sources);
+        go(request, Rc::new(port), commands, looked_at, Some(follow));
         reporter
     })?;
     Ok((job, Remote(sender)))
 }
+
+/// What looks at each record of a run.
+type Follow<'f> = &'f mut dyn FnMut(&Record, &mut Run);
 
 fn go(
     request: RunRequest,
     port: Rc<Port<RunEvent>>,
     commands: Receiver<Command>,
     interrupt: Interrupt,
-    follow: &mut dyn FnMut(&Record, &mut Run),
+    mut follow: Option<Follow<'_>>,
 ) -> u64 {
     let RunRequest { program, limits, options, inputs, asks_inputs, asks_choices, paused, states, frozen, mut due } =
         request;
     let is_told = options.keep;
+    // Nobody looks at single steps.
+    let passes = !is_told && !states && !frozen && follow.is_none() && options.history == 0;
+    let mut together = 1;
     let turn = if paused { Turn::Steps(0) } else { Turn::All };
     let desk = Rc::new(RefCell::new(Desk::new(Rc::clone(&port), commands, turn)));
     let mut sources = inputs(Inputs::new().with(Given(Rc::clone(&desk))));
@@ -119,7 +130,21 @@ fn go(
         // The initial state is made before the first pause.
         let what = if std::mem::take(&mut initial) { Do::Step } else { desk.borrow_mut().next() };
         let stops = what == Do::Stop;
+        let turn = desk.borrow().turn;
         let record = match what {
+            Do::Step if passes && turn == Turn::All => {
+                let mut passed = Passed::default();
+                let record = run.pass_to_record(together, &mut passed);
+                if record.is_none() && passed.steps == together {
+                    let is_due = due();
+                    if is_due {
+                        port.mention(RunEvent::Progress(run.steps()));
+                    }
+                    together = if is_due { (together / 2).max(1) } else { (together * 2).min(TOGETHER) };
+                    continue;
+                }
+                record
+            }
             Do::Step => run.advance(),
             Do::Back => {
                 let back = run.take_back();
@@ -135,7 +160,9 @@ fn go(
             }
         };
         let Some(record) = record else { return run.steps() };
-        follow(&record, &mut run);
+        if let Some(follow) = &mut follow {
+            follow(&record, &mut run);
+        }
         let faults = diagnose_record(&record, &mut run);
         let state = states.then(|| run.machine().locations());
         let frozen = frozen.then(|| Frozen(Arc::new(run.machine().snapshot())));
