@@ -138,7 +138,7 @@ export const words = {
     editText: (id: string) => `Text of ${id}`,
     grow: 'What the arrow leads to',
     context: 'What to do with the shape',
-    openDrawing: 'Open its drawing',
+    open: 'Open what it stands for',
     showText: 'Show in the text',
     edit: 'Edit the text',
     copy: 'Copy',

@@ -175,6 +175,15 @@ function OneBox({ studio, chart, drawing, box, naming }: OneBoxProps): ReactNode
           )}
         </div>
       )}
+      {box.of === null && box.opens && (
+        <div className="pair">
+          <span className="key">{words.system.machine}</span>
+          <code>{box.opens.name}</code>
+          <button className="small" onClick={() => box.opens && void studio.enter(box.opens.uri, box.opens.name)}>
+            {words.inspector.open}
+          </button>
+        </div>
+      )}
       {system && drawing.system && <SystemFields key={box.id} studio={studio} chart={chart} id={box.id} system={drawing.system} />}
       {box.details.length > 0 && system && !drawing.system && (
         <div className="details">

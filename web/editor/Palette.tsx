@@ -149,7 +149,7 @@ export function useTool(
     const box = drawing.picture.boxes.find((box) => box.id === id)
     const term = id === undefined ? null : breakTerm(drawing, id)
     const items: (Item | null)[] = []
-    if (box?.opens) items.push({ name: words.canvas.openDrawing, icon: <Icon name="chevron" />, act: () => open(box.id) })
+    if (box?.opens) items.push({ name: words.canvas.open, icon: <Icon name="chevron" />, act: () => open(box.id) })
     if (box?.range) {
       const { range } = box
       items.push({ name: words.canvas.showText, icon: <Icon name="text" />, act: () => void studio.open(chart.doc.file.uri, { range }) })

@@ -250,10 +250,19 @@ impl View<'_> {
             }
         };
         let pattern = shape.and_then(|shape| chart.pattern_of(shape));
-        let opens = pattern.and_then(|pattern| {
-            let uri = uri_of(&self.loaded.sources.file(pattern.span.file).name)?;
-            Some(json!({ "uri": uri.as_str(), "name": pattern.name }))
-        });
+        let machine = match part {
+            Part::Machine(_) => None,
+            Part::System(system) => system.computing.machines.iter().find_map(|machine| {
+                let component = &system.components[machine.component];
+                let named = component.phases[machine.phase].machine.as_ref()?;
+                (component.name == placed.id).then_some((&machine.source.name, named.text.as_str()))
+            }),
+        };
+        let opens = match (pattern, machine) {
+            (Some(pattern), _) => Some((&self.loaded.sources.file(pattern.span.file).name, pattern.name.as_str())),
+            (None, machine) => machine,
+        };
+        let opens = opens.and_then(|(file, name)| Some(json!({ "uri": uri_of(file)?.as_str(), "name": name })));
         let refinement = shape.and_then(|shape| shape.refinement.as_ref());
         let within = own.as_ref().and_then(|own| own.within.clone());
         let of = shape.and_then(|shape| match &shape.kind {

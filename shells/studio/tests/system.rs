@@ -56,6 +56,21 @@ fn properties_have_their_places_and_are_set() {
 }
 
 #[test]
+fn a_component_opens_its_machine() {
+    let machine = "asm Eye\nimport StandardLibrary\nsignature:\n\tcontrolled n: Integer\ndefinitions:\n\tmain rule r_Main = n := 1\n\
+                   default init s0:\n\tfunction n = 0\n";
+    let chart = AXIS.replace("scan 1.5..2 ms", "scan 1.5..2 ms by Eye");
+    let running = Running::over(&[("Axis.chart", &chart), ("Eye.asm", machine)]);
+    let (mut tab, document) = opened(&running, &chart);
+    let picture = tab.ask("groundstate/chart/picture", json!({ "textDocument": document })).expect("drawn");
+    let boxes = picture["drawings"][0]["picture"]["boxes"].as_array().expect("it has boxes");
+    let of = |id: &str| &boxes.iter().find(|one| one["id"] == id).expect("it is drawn")["opens"];
+    assert_eq!(of("look")["name"], "Eye");
+    assert!(of("look")["uri"].as_str().is_some_and(|uri| uri.ends_with("/Eye.asm")), "{}", of("look"));
+    assert_eq!((of("act"), of("seen")), (&Value::Null, &Value::Null));
+}
+
+#[test]
 fn times_follow_the_text_and_are_not_told_of_one_that_is_wrong() {
     let running = Running::over(&[("Axis.chart", AXIS)]);
     let (mut tab, document) = opened(&running, AXIS);
