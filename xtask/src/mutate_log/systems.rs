@@ -46,6 +46,7 @@ pub const SUBJECTS: &[Subject] = &[
         milliseconds: 12.0,
     },
     Subject { name: "conveyor", path: "cpp/systems/Conveyor", model: None, hooks: None, milliseconds: 25.0 },
+    Subject { name: "fusion", path: "cpp/systems/Fusion", model: None, hooks: None, milliseconds: 25.0 },
     Subject { name: "classifier", path: "cpp/systems/Classifier", model: None, hooks: None, milliseconds: 40.0 },
 ];
 
