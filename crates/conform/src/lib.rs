@@ -7,6 +7,8 @@
 //! agrees with the recorded instants (`untimed`). What components' machines decide is replayed apart (`functions`). The meaning of a rule stays in the machine; a run that was not wholly
 //! recorded never conforms.
 
+mod accesses;
+mod bounds;
 mod carried;
 mod claims;
 mod events;
@@ -22,6 +24,8 @@ mod untimed;
 mod vocabulary;
 mod waiting;
 
+pub use accesses::Access;
+pub use bounds::Open;
 pub use events::Events;
 pub use evidence::{Claim, Parted, Recorded};
 pub use fault::{IDS as FAULT_IDS, diagnose_parted};

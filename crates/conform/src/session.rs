@@ -13,6 +13,8 @@ use program::Program;
 use syntax::{Diagnostic, Sources};
 
 use crate::Verdict;
+use crate::accesses::{self, Access};
+use crate::bounds::{self, Modelled};
 use crate::functions::Functions;
 use crate::head::contradiction;
 use crate::steps::Steps;
@@ -64,6 +66,10 @@ pub struct Session {
     limits: Limits,
     replay: Replay,
     functions: Functions,
+    /// The model as it is, in its initial state, and what is known of it.
+    initial: (Machine, Vocabulary),
+    /// The bounds that the model has.
+    bounds: Vec<Modelled>,
     /// A difference that is reported once everything is known up to this instant.
     suspected_ns: Option<i64>,
     /// For each track, how many events are known not to go back in time.
@@ -125,6 +131,7 @@ impl Session {
         if let Some(words) = contradiction(head, &machine, &vocabulary) {
             return Err(format!("the recording is of another system: {words}").into());
         }
+        let bounds = bounds::modelled(&program, &machine, &vocabulary, head.tick_ns);
         let steps = match Steps::add(&head.wait_free, &mut sources, &mut model, &mut program) {
             Ok(steps) => steps,
             Err(faults) => return Err(Refusal::Model(sources, faults)),
@@ -139,6 +146,8 @@ impl Session {
             limits,
             replay,
             functions,
+            initial: (machine, vocabulary),
+            bounds,
             suspected_ns: None,
             in_order: Vec::new(),
             interrupt: Interrupt::default(),
@@ -148,6 +157,20 @@ impl Session {
     /// How many decisions of components' machines agree; none if no component has one.
     pub fn decisions(&self) -> Option<usize> {
         self.steps.tick().map(|_| self.functions.agreed())
+    }
+
+    /// How often each task accessed its channels in the recording, and how often it did not.
+    pub fn accesses(&self, recording: &Recording) -> Vec<Access> {
+        accesses::accesses(recording, &self.initial.0, &self.initial.1)
+    }
+
+    /// What was not compared of the bounds that recording and model state. The recording states its own at its end.
+    ///
+    /// # Errors
+    /// The two have another bound: the recording is of another system.
+    pub fn bounds(&self, recording: &Recording) -> Result<bounds::Open, Refusal> {
+        let compared = bounds::compare(recording, &self.bounds, &self.initial.1);
+        compared.map_err(|words| format!("the recording is of another system: {words}").into())
     }
 
     /// From now on, an interrupt ends the comparison within [`Session::go_on`]; the verdict is then unknown.
@@ -182,6 +205,9 @@ impl Session {
                 return Err(format!("time goes back: {words}").into());
             }
             *known = track.events.len();
+        }
+        if recording.ended {
+            self.bounds(recording)?;
         }
         // Nothing is known after a lost event.
         let more = more && recording.tracks.iter().all(|track| !track.lost);
@@ -275,4 +301,8 @@ mod by_order;
 #[cfg(test)]
 mod damaged;
 #[cfg(test)]
+mod halves;
+#[cfg(test)]
 mod tests;
+#[cfg(test)]
+pub(crate) use tests::model_named;

@@ -87,10 +87,10 @@ fn program(name: &str) -> Program {
         image_ages: vec![(name.into(), ages)],
     };
     let mut first = ProgramRun::of(format!("virtual{name}"), &recording(name, 0));
-    first.verdict = Some(Held { conforms: Some(true), words: name.into() });
+    first.verdict = Some(Held { conforms: Some(true), words: name.into(), beside: vec![format!("beside {name}")] });
     first.closed_loop = Some(world);
     let mut second = ProgramRun::of(format!("real{name}"), &recording(name, 70));
-    second.verdict = Some(Held { conforms: Some(false), words: format!("parts {name}") });
+    second.verdict = Some(Held { conforms: Some(false), words: format!("parts {name}"), beside: Vec::new() });
     Program {
         title: name.into(),
         note: name.into(),

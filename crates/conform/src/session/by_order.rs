@@ -9,7 +9,7 @@ use super::*;
 const TICK_NS: i64 = 100_000;
 
 /// The recording with these events, one on each line: task, instant, kind, object, and the rest of its words.
-fn recording(pace: &str, lines: &str) -> Recording {
+pub(super) fn recording(pace: &str, lines: &str) -> Recording {
     let names = ["operator", "camera", "visual_servoing", "robot", "motor", "encoder"];
     let mut tracks: Vec<Track> =
         names.iter().map(|name| Track { task: (*name).to_string(), ..Track::default() }).collect();
@@ -42,7 +42,7 @@ fn recording(pace: &str, lines: &str) -> Recording {
     }
 }
 
-fn verdict(recording: &Recording) -> Verdict {
+pub(super) fn verdict(recording: &Recording) -> Verdict {
     let (sources, model, program) = model_named("CompleteController.asm");
     let mut session =
         Session::new(sources, model, program, Limits::default(), recording, true).expect("it can be replayed");
@@ -50,14 +50,14 @@ fn verdict(recording: &Recording) -> Verdict {
 }
 
 #[track_caller]
-fn conforms(recording: &Recording) {
+pub(super) fn conforms(recording: &Recording) {
     let verdict = verdict(recording);
     assert!(matches!(verdict, Verdict::Conforms { .. }), "{verdict:#?}");
 }
 
 /// Where the two differ, and what the model has instead.
 #[track_caller]
-fn parts(recording: &Recording, event: &str, model: &str) {
+pub(super) fn parts(recording: &Recording, event: &str, model: &str) {
     match verdict(recording) {
         Verdict::Parts(parted) => {
             let words = |event: &Event| format!("{} {}", event.kind, event.object);
@@ -101,7 +101,7 @@ fn what_is_told_later_may_have_happened_before() {
 }
 
 /// The encoder holds a lock that the motor has asked for at 1000 ns; then comes the motor's event, `after` that time.
-fn contention(pace: &str, after_ns: i64, kind: &str) -> Recording {
+pub(super) fn contention(pace: &str, after_ns: i64, kind: &str) -> Recording {
     let came = 1_000 + after_ns;
     let mut lines = format!(
         "encoder 100 begins encoder_acquire 0

@@ -8,7 +8,7 @@ use testkit::{Disk, repository};
 use super::*;
 
 /// A model of the case study.
-pub(super) fn model_named(name: &str) -> (Sources, Model, Program) {
+pub(crate) fn model_named(name: &str) -> (Sources, Model, Program) {
     let path = repository::root().join("examples/visual_servoing").join(name);
     let checked = model::check(Disk::read(&path).expect("the model is there"), &mut Disk);
     let program = program::lower(&checked.model).expect("it can be lowered");

@@ -6,7 +6,7 @@
 use std::io;
 use std::sync::Arc;
 
-use conform::{Event, Kind, Malformed, Reader, Recording, Refusal, Session, Track, Verdict, Way};
+use conform::{Access, Event, Kind, Malformed, Open, Reader, Recording, Refusal, Session, Track, Verdict, Way};
 use machine::Limits;
 use syntax::Sources;
 
@@ -142,6 +142,24 @@ pub struct Conformed {
     pub way: Way,
     /// How many decisions of components' machines agree; none if no component has one.
     pub decisions: Option<usize>,
+    /// How often each task accessed its channels, and how often it did not.
+    pub accesses: Vec<Access>,
+    /// What was not compared of the bounds that the chart states.
+    pub bounds: Open,
+}
+
+impl Conformed {
+    fn new(session: &Session, recording: Recording, verdict: Verdict) -> Result<Conformed, Refusal> {
+        Ok(Conformed {
+            sources: session.sources().clone(),
+            way: session.way(),
+            decisions: session.decisions(),
+            accesses: session.accesses(&recording),
+            bounds: session.bounds(&recording)?,
+            recording,
+            verdict,
+        })
+    }
 }
 
 /// Why there is no verdict.
@@ -189,8 +207,7 @@ fn follow<T: Tail>(
             session.heed(cancel.interrupt().clone());
             let verdict = session.go_on(&recording, false).map_err(NotConformed::Refused)?;
             let Some(verdict) = verdict else { unreachable!("nothing more comes") };
-            let (sources, way, decisions) = (session.sources().clone(), session.way(), session.decisions());
-            return Ok(Conformed { sources, recording, verdict, way, decisions });
+            return Conformed::new(&session, recording, verdict).map_err(NotConformed::Refused);
         }
     };
     let mut begin = Some(begin);
@@ -213,8 +230,7 @@ fn follow<T: Tail>(
             match session.go_on(recording, more).map_err(NotConformed::Refused)? {
                 Some(verdict) => {
                     let verdict = if stops { verdict.left() } else { verdict };
-                    let (sources, way, decisions) = (session.sources().clone(), session.way(), session.decisions());
-                    return Ok(Conformed { sources, recording: recording.clone(), verdict, way, decisions });
+                    return Conformed::new(session, recording.clone(), verdict).map_err(NotConformed::Refused);
                 }
                 None => tell(ConformEvent::Agrees(Agreed::new(session, recording))),
             }

@@ -1,7 +1,10 @@
 //! Names and verdicts of a program's runs, as its report shows them.
 
-use conform::{Parted, Recording, Verdict, Way};
+use conform::{Parted, Recording, Verdict};
 use report::{Held, ProgramRun};
+
+use crate::job::Conformed;
+use crate::tell::{beside, but};
 
 /// A name that distinguishes a run from the others.
 pub fn run_name(recording: &Recording, others: &[ProgramRun]) -> String {
@@ -13,7 +16,8 @@ pub fn run_name(recording: &Recording, others: &[ProgramRun]) -> String {
 }
 
 /// A verdict, in the words of the page.
-pub fn held_in_words(verdict: &Verdict, way: Way, recording: &Recording) -> Held {
+pub fn held_in_words(conformed: &Conformed) -> Held {
+    let Conformed { verdict, way, recording, accesses, .. } = conformed;
     let (way, many) = (way.words(), |n: usize| report::count(n as u64));
     match verdict {
         Verdict::Conforms { events, steps, after } => {
@@ -22,9 +26,9 @@ pub fn held_in_words(verdict: &Verdict, way: Way, recording: &Recording) -> Held
                 more => format!("; {} after the tasks were asked to stop are not compared", many(*more)),
             };
             let steps = report::count(*steps);
-            let words =
-                format!("conforms to the model {way}: {} events, {steps} steps of the model{after}", many(*events));
-            Held { conforms: Some(true), words }
+            let (but, events) = (but(accesses), many(*events));
+            let words = format!("conforms to the model {way}{but}: {events} events, {steps} steps of the model{after}");
+            Held { conforms: Some(true), words, beside: beside(conformed) }
         }
         Verdict::Unknown { events, reason } => Held {
             conforms: None,
@@ -32,6 +36,7 @@ pub fn held_in_words(verdict: &Verdict, way: Way, recording: &Recording) -> Held
                 "not known whether it conforms to the model: {reason}; {} events agree before",
                 many(*events)
             ),
+            beside: Vec::new(),
         },
         Verdict::Parts(parted) if parted.decides => {
             let at = (parted.tick * recording.tick_ns) as f64 / 1e6;
@@ -41,7 +46,7 @@ pub fn held_in_words(verdict: &Verdict, way: Way, recording: &Recording) -> Held
                 many(parted.agreed),
                 parted.task
             );
-            Held { conforms: Some(false), words }
+            Held { conforms: Some(false), words, beside: Vec::new() }
         }
         Verdict::Parts(parted) => {
             let Parted { event, tick, task, claims, agreed, .. } = parted.as_ref();
@@ -54,7 +59,7 @@ pub fn held_in_words(verdict: &Verdict, way: Way, recording: &Recording) -> Held
                 "parts from the model {way}, at {at:.4} ms, after {} events: {task} did: {did}; the model: {model}",
                 many(*agreed)
             );
-            Held { conforms: Some(false), words }
+            Held { conforms: Some(false), words, beside: Vec::new() }
         }
     }
 }

@@ -3,6 +3,7 @@
 //! In: records of runs and other results of the operations. Out: lines, for a shell to write. It must not know
 //! terminals; the caller asks for colours.
 
+mod beside;
 mod coverage;
 mod extent;
 mod found;
@@ -16,6 +17,7 @@ mod side_by_side;
 mod story;
 mod verdict;
 
+pub use beside::{beside, but, outside};
 pub use coverage::{Uncovered, uncovered};
 pub use extent::{Extent, explored, place_of, why_unreduced};
 pub use found::{FoundChange, FoundStep};

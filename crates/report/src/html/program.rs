@@ -55,6 +55,7 @@ fn header(out: &mut String, program: &Program) {
         let name = format!("{} in {}", run.span(), run.name);
         if let Some(held) = &run.verdict {
             check(out, held.conforms, &name, &held.words);
+            held.beside.iter().for_each(|words| check(out, None, &name, words));
         }
         if let Some(words) = run.outside() {
             check(out, Some(false), &name, &words);

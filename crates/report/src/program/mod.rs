@@ -62,6 +62,8 @@ pub struct Held {
     pub conforms: Option<bool>,
     /// In a sentence.
     pub words: String,
+    /// What a run that conforms has all the same, or what was not looked at; a sentence each.
+    pub beside: Vec<String>,
 }
 
 /// When a task did its cycles.

@@ -20,6 +20,7 @@ pub fn summarise_program(program: &Program, options: &RunSummary) -> String {
         put!(out, "\n{} in {}\n", run.span(), run.name);
         if let Some(held) = &run.verdict {
             line(&mut out, held.conforms, &held.words, options);
+            held.beside.iter().for_each(|words| line(&mut out, None, words, options));
         }
         if run.lossy {
             line(&mut out, None, LOSSY, options);

@@ -13,7 +13,7 @@ use groundstate::job::{self, Cancel, ConformEvent, ConformRequest, Events, NotCo
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use wire::FollowedTold;
 
-use super::{Arguments, not_started, refused, tell, unreadable};
+use super::{Arguments, not_started, refused, say, unreadable};
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::interrupt;
@@ -58,7 +58,7 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     }
     status.done();
     match job.finish().unwrap_or_else(|crashed| panic!("{}", crashed.0)) {
-        Ok(conformed) => tell(shell, &conformed),
+        Ok(conformed) => say(shell, &conformed),
         Err(NotConformed::Unread(failure)) => Err(failure),
         Err(NotConformed::Malformed(malformed)) => Err(unreadable(path, &malformed)),
         Err(NotConformed::Refused(refusal)) => refused(shell, path, refusal),

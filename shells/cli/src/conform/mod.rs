@@ -8,10 +8,11 @@ mod follow;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use ::conform::{Event, Kind, Malformed, Parted, Reader, Recording, Refusal, Verdict, diagnose_parted};
+use ::conform::{Malformed, Parted, Reader, Recording, Refusal, Verdict, diagnose_parted};
 use clap::Args;
 use groundstate::Loaded;
 use groundstate::job::{self, Cancel, ConformRequest, Conformed, Events, NoTail, NotConformed};
+use groundstate::tell;
 use syntax::Sources;
 
 use crate::exit::Exit;
@@ -47,7 +48,7 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
         Err(exit) => return Ok(exit),
     };
     match hold(shell, loaded, &arguments.model, recording, arguments.untimed)? {
-        Ok(conformed) => tell(shell, &conformed),
+        Ok(conformed) => say(shell, &conformed),
         Err(exit) => Ok(exit),
     }
 }
@@ -103,8 +104,8 @@ fn refused(shell: &mut Shell, path: &Path, refusal: Refusal) -> Result<Exit, Fai
     }
 }
 
-fn tell(shell: &mut Shell, conformed: &Conformed) -> Result<Exit, Failure> {
-    let Conformed { sources, recording, verdict, way, decisions } = conformed;
+fn say(shell: &mut Shell, conformed: &Conformed) -> Result<Exit, Failure> {
+    let Conformed { sources, recording, verdict, way, decisions, accesses, .. } = conformed;
     let way = way.words();
     let words = match verdict {
         Verdict::Conforms { events, steps, after } => {
@@ -116,8 +117,10 @@ fn tell(shell: &mut Shell, conformed: &Conformed) -> Result<Exit, Failure> {
             let decisions = decisions
                 .map(|decisions| format!("\n{decisions} decisions are those of the components' machines"))
                 .unwrap_or_default();
-            let (missed, silent) = (missed(recording) + &outside(recording), silent(recording));
-            format!("conforms {way}: {events} events, {steps} steps of the model{after}{decisions}{missed}{silent}")
+            let but = tell::but(accesses);
+            let beside = tell::beside(conformed).into_iter().chain(tell::outside(recording));
+            let beside: String = beside.map(|words| format!("\n{words}")).collect();
+            format!("conforms {way}{but}: {events} events, {steps} steps of the model{after}{decisions}{beside}")
         }
         Verdict::Unknown { events, reason } => {
             format!("not known, {way}: {reason}; {events} events agree before")
@@ -137,52 +140,6 @@ fn tell(shell: &mut Shell, conformed: &Conformed) -> Result<Exit, Failure> {
         Verdict::Unknown { .. } => Exit::Unknown,
         Verdict::Parts(_) => Exit::Model,
     })
-}
-
-/// The deadlines that were missed before the tasks were asked to stop: a run that has its events in order may have missed all of them.
-fn missed(recording: &Recording) -> String {
-    let until_ns = recording.stopped_ns.unwrap_or(i64::MAX);
-    let misses = |event: &&Event| event.kind == Kind::Misses && event.time_ns <= until_ns;
-    let tasks = recording.tracks.iter().map(|track| (&track.task, track.events.iter().filter(misses).count()));
-    let tasks: Vec<_> = tasks.filter(|(_, count)| *count > 0).collect();
-    let each = tasks.iter().map(|(task, count)| format!("{task} {count}")).collect::<Vec<_>>().join(", ");
-    match tasks.iter().map(|(_, count)| count).sum::<usize>() {
-        0 => String::new(),
-        1 => format!("\n1 deadline was missed ({each}); whether the model forbids that is not looked at"),
-        more => format!("\n{more} deadlines were missed ({each}); whether the model forbids that is not looked at"),
-    }
-}
-
-/// What the program counted as outside the bounds of its chart. The events of such a run may be in order.
-fn outside(recording: &Recording) -> String {
-    let told = recording.bounds.iter().filter(|bound| bound.outside() > 0).map(|bound| {
-        let (what, limit, outside, seen) = (&bound.what, &bound.limit, bound.outside(), bound.seen);
-        format!("\n{outside} of {seen} were outside the chart's bounds, as the program counted: {what} ({limit})")
-    });
-    told.collect()
-}
-
-/// LIMIT: periods without an event that are told of.
-const SILENT: i64 = 4;
-
-/// The synchronous tasks of which nothing is recorded for several periods before they were asked to stop, and the others of which nothing
-/// is recorded at all. An order of events says nothing of what did not come.
-fn silent(recording: &Recording) -> String {
-    let Some(stopped_ns) = recording.stopped_ns else { return String::new() };
-    let told = recording.tracks.iter().filter_map(|track| {
-        let last_ns = track.events.iter().map(|event| event.time_ns).filter(|time_ns| *time_ns <= stopped_ns).max();
-        let silent_ns = stopped_ns - last_ns.unwrap_or(0);
-        let when = match track.rhythm.map(|rhythm| rhythm.period_ns).filter(|period_ns| *period_ns > 0) {
-            Some(period_ns) if silent_ns > SILENT * period_ns => {
-                let (silent, periods) = (ms(silent_ns), silent_ns / period_ns);
-                format!("in the last {silent} ms before the stop, {periods} of its periods")
-            }
-            None if last_ns.is_none() => "before the stop".to_string(),
-            _ => return None,
-        };
-        Some(format!("\nnothing is recorded of {} {when}: whether it stood still is not looked at", track.task))
-    });
-    told.collect()
 }
 
 fn ms(ns: i64) -> String {
@@ -236,56 +193,4 @@ fn parting(shell: &mut Shell, sources: &Sources, parted: &Parted) -> Result<(), 
         shell.details(sources, &[rule])?;
     }
     Ok(())
-}
-
-#[cfg(test)]
-mod tests {
-    use ::conform::{Rhythm, Track};
-
-    use super::*;
-    #[test]
-    fn missed_deadlines_are_told_of_each_task_until_the_stop() {
-        let missed_at = |time_ns: i64| Event { time_ns, kind: Kind::Misses, ..Event::default() };
-        let track = |task: &str, times: &[i64]| Track {
-            task: task.to_string(),
-            events: times.iter().copied().map(missed_at).collect(),
-            ..Track::default()
-        };
-        let tracks = vec![track("drive", &[1, 5, 9]), track("arm", &[2]), track("eye", &[])];
-        let recording = Recording { tracks, stopped_ns: Some(6), ..Recording::default() };
-        let unsaid = "whether the model forbids that is not looked at";
-        assert_eq!(missed(&recording), format!("\n3 deadlines were missed (drive 2, arm 1); {unsaid}"));
-        let one = Recording { stopped_ns: Some(1), ..recording };
-        assert_eq!(missed(&one), format!("\n1 deadline was missed (drive 1); {unsaid}"));
-        assert_eq!(missed(&Recording { stopped_ns: Some(0), ..one }), "");
-    }
-
-    #[test]
-    fn a_task_that_records_nothing_more_is_told_of() {
-        let track = |task: &str, period_ns: i64, times: &[i64]| Track {
-            task: task.to_string(),
-            rhythm: (period_ns > 0).then_some(Rhythm { period_ns, offset_ns: 0, deadline_ns: period_ns }),
-            events: times.iter().map(|time_ns| Event { time_ns: *time_ns, ..Event::default() }).collect(),
-            ..Track::default()
-        };
-        let tracks = vec![
-            track("drive", 10_000_000, &[0, 12_000_000, 501_000_000]),
-            track("arm", 100_000_000, &[0, 100_000_000]),
-            // Nobody says when it is due.
-            track("plan", 0, &[0]),
-            track("eye", 10_000_000, &[]),
-            track("radio", 0, &[]),
-            track("late", 0, &[501_000_000]),
-        ];
-        let recording = Recording { tracks, stopped_ns: Some(500_000_000), ..Recording::default() };
-        let end = "whether it stood still is not looked at";
-        let said = format!(
-            "\nnothing is recorded of drive in the last 488.0000 ms before the stop, 48 of its periods: {end}\
-             \nnothing is recorded of eye in the last 500.0000 ms before the stop, 50 of its periods: {end}\
-             \nnothing is recorded of radio before the stop: {end}\
-             \nnothing is recorded of late before the stop: {end}"
-        );
-        assert_eq!(silent(&recording), said);
-        assert_eq!(silent(&Recording { stopped_ns: None, ..recording }), "");
-    }
 }

@@ -9,7 +9,6 @@ use std::path::{Path, PathBuf};
 
 use ::report::{Fact, Program, ProgramRun, RunSummary, render_program};
 use chart::system::System;
-use groundstate::job::Conformed;
 use groundstate::reporting::{Counted, counted_inputs, counted_times, held_in_words, run_name, system_beside};
 use recording::Recording;
 
@@ -47,9 +46,9 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
             program.facts.push(fact("Fingerprint of all texts", groundstate::fingerprint(&loaded.sources)));
         }
         let (recording, held) = match hold(shell, loaded, &arguments.model, recording, false)? {
-            Ok(Conformed { recording, verdict, way, .. }) => {
-                let held = held_in_words(&verdict, way, &recording);
-                (recording, held)
+            Ok(conformed) => {
+                let held = held_in_words(&conformed);
+                (conformed.recording, held)
             }
             Err(exit) => return Ok(exit),
         };

@@ -1,0 +1,139 @@
+//! What a recording states of bounds is so in the model, in any unit; what is not compared is named.
+
+use machine::Closed;
+use std::sync::Arc;
+
+use super::*;
+use crate::session::model_named;
+
+/// What is bounded, and by what.
+fn stated(bounds: &[(&str, &str)]) -> Recording {
+    let bound = |(what, limit): &(&str, &str)| Bounded {
+        what: (*what).to_string(),
+        limit: (*limit).to_string(),
+        ..Bounded::default()
+    };
+    Recording { bounds: bounds.iter().map(bound).collect(), ended: true, ..Recording::default() }
+}
+
+/// What is said of it beside these bounds of the model.
+fn said(bounds: &[Modelled], vocabulary: &Vocabulary, recorded: &[(&str, &str)]) -> String {
+    match compare(&stated(recorded), bounds, vocabulary) {
+        Err(words) => words,
+        Ok(Open { unread, uncounted }) => format!("unread {unread:?}, uncounted {uncounted:?}"),
+    }
+}
+
+/// An example, and its tick.
+fn of_model(name: &str, tick_ns: i64) -> (Vec<Modelled>, Vocabulary) {
+    let (_, _, program) = model_named(name);
+    let mut machine = Machine::new(Arc::new(program.clone()), machine::Limits::default());
+    machine.start(&mut Closed).expect("it starts");
+    let vocabulary = Vocabulary::new(&program, &machine).expect("the library's patterns");
+    (modelled(&program, &machine, &vocabulary, tick_ns), vocabulary)
+}
+
+const ALL: &str = "unread [], uncounted []";
+
+#[test]
+fn intervals_and_ages_are_those_of_the_model() {
+    let (bounds, vocabulary) = of_model("../sorting_cell/SortingCell.asm", 100_000);
+    let said = |recorded: &[(&str, &str)]| said(&bounds, &vocabulary, recorded);
+    let decode = ("decode of reader", "3..9 ms");
+    assert_eq!(said(&[decode, ("classify of classifier", "8..20 ms")]), ALL);
+    assert_eq!(said(&[("any of classifier", "8000 us..0.02 s"), decode]), ALL);
+    assert_eq!(said(&[decode]), "unread [], uncounted [\"an elaboration of classifier (8..20 ms)\"]");
+    let other = "the bound of decode of reader is 3..9.5 ms in the recording, 3..9 ms in the model";
+    assert_eq!(said(&[("decode of reader", "3..9.5 ms")]), other);
+    let twice = "the recording bounds decode of reader (3..9 ms), the model does not";
+    assert_eq!(said(&[decode, decode]), twice);
+    let none = "the recording bounds deadlines missed by reader (1 of 4), the model does not";
+    assert_eq!(said(&[("deadlines missed by reader", "1 of 4")]), none);
+
+    let (bounds, vocabulary) = of_model("../press_cell/PressCell.asm", 500_000);
+    let said = |recorded: &[(&str, &str)]| super::tests::said(&bounds, &vocabulary, recorded);
+    // Between which devices is not in the model.
+    assert_eq!(bounds.len(), 1, "{bounds:?}");
+    let Limit::Ns(ns) = bounds[0].limit else { panic!("{bounds:?}") };
+    let limit = format!("within {ns} ns");
+    assert_eq!(said(&[("age from height to motor", &limit)]), ALL);
+    let unread = said(&[("age from height to motor", "18 ms at most")]);
+    assert!(
+        unread.starts_with("unread [\"age from height to motor (18 ms at most)\"], uncounted [\"age from"),
+        "{unread}"
+    );
+    let later = said(&[("age from height to motor", &format!("within {} ns", ns + 1))]);
+    assert!(later.contains("in the recording, within"), "{later}");
+}
+
+#[test]
+fn every_kind_is_held_to_its_own() {
+    let (_, vocabulary) = of_model("../sorting_cell/SortingCell.asm", 100_000);
+    let name = |text: &str| text.to_string();
+    let ms = |number: i128| Limit::Ns(number * 1_000_000);
+    let age = |over: &[&str], limit: Limit| Modelled {
+        what: What::Age {
+            from: name("reader"),
+            to: name("sequencer"),
+            over: over.iter().map(|one| name(one)).collect(),
+        },
+        limit,
+    };
+    let bounds = [
+        Modelled { what: What::Releases { of: name("reader") }, limit: ms(2) },
+        Modelled { what: What::News { channel: name("codes_sequencer"), of: name("sequencer") }, limit: ms(20) },
+        Modelled { what: What::Misses { of: name("sequencer") }, limit: Limit::Misses { most: 1, of: 20 } },
+        age(&["codes", "orders"], ms(30)),
+        age(&["images"], ms(30)),
+    ];
+    let good = [
+        ("releases of reader", "2 ms"),
+        ("new codes for sequencer", "every 20 ms"),
+        ("deadlines missed by sequencer", "1 of 20"),
+        ("age from eye to sequencer over images", "within 30 ms"),
+        ("age from eye to sequencer over codes, orders", "within 30 ms"),
+    ];
+    assert_eq!(said(&bounds, &vocabulary, &good), ALL);
+    for (at, other) in [
+        (0, ("releases of reader", "2.5 ms")),
+        (0, ("releases of sequencer", "2 ms")),
+        (1, ("new codes for reader", "every 20 ms")),
+        (1, ("new images for sequencer", "every 20 ms")),
+        (1, ("new codes for sequencer", "every 21 ms")),
+        (2, ("deadlines missed by sequencer", "1 of 19")),
+        (2, ("deadlines missed by sequencer", "2 of 20")),
+        (3, ("age from eye to sequencer over codes", "within 30 ms")),
+        // A component is one of the model.
+        (4, ("age from sequencer to sequencer over codes, orders", "within 30 ms")),
+        (4, ("age from eye to reader over codes, orders", "within 30 ms")),
+        (4, ("age from eye to sequencer over codes, orders", "within 31 ms")),
+    ] {
+        let mut wrong = good;
+        wrong[at] = other;
+        let words = said(&bounds, &vocabulary, &wrong);
+        let (what, limit) = other;
+        let is_named = [format!("the recording bounds {what} ({limit})"), format!("the bound of {what} is {limit}")];
+        assert!(is_named.iter().any(|start| words.starts_with(start)), "{words}");
+    }
+}
+
+#[test]
+fn lengths_are_read_exactly_or_not_at_all() {
+    for (text, ns) in [
+        ("0.5 ms", Some(500_000)),
+        ("120 ms", Some(120_000_000)),
+        ("1.5 s", Some(1_500_000_000)),
+        ("300 ns", Some(300)),
+        ("0.25 us", Some(250)),
+        ("0.5 ns", None),
+        ("1 h", None),
+        (".5 ms", None),
+        ("-1 ms", None),
+        ("1e3 ms", None),
+        ("99999999999999999999999999999999999999999 s", None),
+        ("ms", None),
+        ("", None),
+    ] {
+        assert_eq!(length(text), ns, "{text}");
+    }
+}
