@@ -15,6 +15,16 @@ use crate::workspace::Findings;
 
 /// Checks a coupling.
 pub fn check_coupling(root: &SourceFile, loader: &mut dyn Loader) -> Findings {
+    let mut found = written_well(root, loader);
+    if let Some(foreign) = root.foreign {
+        let mut sources = Sources::default();
+        let file = sources.add(root.clone());
+        found.faults.insert(0, (sources, vec![foreign.warning(file)]));
+    }
+    found
+}
+
+fn written_well(root: &SourceFile, loader: &mut dyn Loader) -> Findings {
     let written = match read(FileId(0), &root.text) {
         Ok(written) => written,
         Err(fault) => {

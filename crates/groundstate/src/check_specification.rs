@@ -8,7 +8,7 @@ use std::path::Path;
 
 use chart::NoPictures;
 use model::Loader;
-use syntax::SourceFile;
+use syntax::{Diagnostic, Severity, SourceFile, Sources};
 
 use crate::asked_of_system::{check_asked_of_system, draws_system};
 use crate::kind::{Kind, chart_of, model_of};
@@ -20,6 +20,12 @@ use crate::{check_verification, load};
 /// read as a verification specification.
 pub fn check_specification<F: Files + Loader>(root: &SourceFile, model: Option<SourceFile>, files: &mut F) -> Findings {
     let path = Path::new(&root.name);
+    if let Some(foreign) = root.foreign {
+        let mut sources = Sources::default();
+        let file = sources.add(root.clone());
+        let fault = Diagnostic { severity: Severity::Error, ..foreign.warning(file) };
+        return Findings { faults: vec![(sources, vec![fault])], open: None };
+    }
     if Kind::of(path) == Some(Kind::Verification) {
         match files.read(&chart_of(path).to_string_lossy()) {
             Ok(chart) if draws_system(&chart) => return check_asked_of_system(root, chart, files),

@@ -2,7 +2,8 @@
 //!
 //! In: the root file's text and a [`Loader`]. Out: the texts, the faults, and the program to run. INVARIANT: there is a
 //! program if and only if no fault is an error. So [`load`](crate::load) accepts a model exactly if
-//! [`check`](crate::check) reports no error. An `asm` must have a main rule; a module need not.
+//! [`check`](crate::check) reports no error. An `asm` must have a main rule; a module need not. A
+//! file in which nothing stands is neither.
 
 use std::sync::Arc;
 
@@ -11,7 +12,7 @@ use program::Program;
 use syntax::ast::{self, AstNode};
 use syntax::{Diagnostic, SourceFile, Sources, Span};
 
-use crate::fault::run::{missing_main, start};
+use crate::fault::run::{missing_main, no_model, start};
 use crate::has_errors;
 
 /// The result of reading a model's texts.
@@ -54,13 +55,15 @@ fn temporal(program: Program) -> Result<Program, Vec<Diagnostic>> {
     Ok(Arc::unwrap_or_clone(program))
 }
 
-/// Reports an `asm` without a main rule. A module needs none: it is only imported.
+/// Reports an `asm` without a main rule, and a file without a model. A module needs no main rule: it is only imported.
 fn no_main_rule(model: &Model, sources: &Sources) -> Option<Diagnostic> {
     if model.main.is_some() {
         return None;
     }
     let parse = syntax::parse_asmetal(model.root, &sources.file(model.root).text);
-    let machine = ast::SourceFile::cast(parse.syntax())?.machine_name()?;
+    let Some(machine) = ast::SourceFile::cast(parse.syntax())?.machine_name() else {
+        return Some(no_model(model.root));
+    };
     let span = machine.name().map_or_else(|| start(model.root), |name| Span::new(model.root, name.text_range()));
     (!machine.is_module()).then(|| missing_main(span))
 }

@@ -136,6 +136,12 @@ pub(crate) fn start(file: FileId) -> Span {
     Span { file, start: 0, end: 0 }
 }
 
+/// There is no text in a file but comments. Nothing was checked, so it is no model without faults.
+pub(crate) fn no_model(file: FileId) -> Diagnostic {
+    Diagnostic::error("no-main-rule", start(file), "the file has no model: there is nothing in it")
+        .with_help("write `asm NAME` or `module NAME`, with NAME as the file is called")
+}
+
 pub(crate) fn missing_main(span: Span) -> Diagnostic {
     Diagnostic::error("no-main-rule", span, "the model has no main rule to run").with_help(
         "add `main rule r_Main = …` behind the other rules; what other models import is a `module`, and is run through an \

@@ -19,7 +19,10 @@ pub fn look(path: &Path, root: &SourceFile, disk: &mut Disk) -> Result<Seen, Fai
         Err(failure) => return Err(failure),
     };
     let Findings { faults, open } = check_specification(root, model, disk);
-    Ok(Seen { faults, open, ..Seen::default() })
+    // Nothing was found at fault in nothing.
+    let is_empty = root.text.lines().all(|line| matches!(line.trim(), "" | "---") || line.trim().starts_with('#'));
+    let size = if is_empty { " (it says nothing)".to_string() } else { String::new() };
+    Ok(Seen { faults, open, size })
 }
 
 /// The name of a YAML file is not that of a specification.
