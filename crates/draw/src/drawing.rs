@@ -15,6 +15,15 @@ use crate::{components, font, svg, words};
 #[derive(Debug, Clone, Copy)]
 pub struct Drawing<'c>(Subject<'c>);
 
+/// A PNG or a PDF.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Still {
+    /// The file.
+    pub bytes: Vec<u8>,
+    /// The letters that it leaves out: the faces of this crate do not have them.
+    pub left_out: Vec<char>,
+}
+
 /// The drawings of a chart, in the order of the file, the system last.
 pub fn drawings(chart: &Chart) -> Vec<Drawing<'_>> {
     subjects(chart).map(Drawing).collect()
@@ -68,24 +77,18 @@ impl<'c> Drawing<'c> {
     ///
     /// # Errors
     /// As [`Drawing::picture`], and where the picture is too large for memory.
-    pub fn png(&self, theme: Theme, scale: f32) -> Result<Vec<u8>, DrawFault> {
-        still::png(&self.svg(theme)?, scale)
-    }
-
-    /// The letters that a PNG or a PDF leaves out: the faces of this crate do not have them.
-    ///
-    /// # Errors
-    /// As [`Drawing::picture`].
-    pub fn left_out(&self) -> Result<Vec<char>, LayoutFault> {
-        Ok(font::lacking(&self.svg(Theme::Light)?))
+    pub fn png(&self, theme: Theme, scale: f32) -> Result<Still, DrawFault> {
+        let svg = self.svg(theme)?;
+        Ok(Still { bytes: still::png(&svg, scale)?, left_out: font::lacking(&svg) })
     }
 
     /// The drawing as a PDF of one page; [`Theme::Auto`] is light there. Its text can be searched.
     ///
     /// # Errors
     /// As [`Drawing::picture`].
-    pub fn pdf(&self, theme: Theme) -> Result<Vec<u8>, DrawFault> {
-        still::pdf(&self.svg(theme)?)
+    pub fn pdf(&self, theme: Theme) -> Result<Still, DrawFault> {
+        let svg = self.svg(theme)?;
+        Ok(Still { bytes: still::pdf(&svg)?, left_out: font::lacking(&svg) })
     }
 
     fn description(&self) -> String {

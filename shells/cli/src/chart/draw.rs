@@ -5,7 +5,7 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
-use draw::{DrawFault, Drawing};
+use draw::{DrawFault, Drawing, Still};
 
 use crate::exit::Exit;
 use crate::failure::Failure;
@@ -104,11 +104,9 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     let (mut pictures, mut missing) = (Vec::new(), BTreeSet::new());
     for machine in machines {
         let failed = |fault: DrawFault| Failure::usage(fault.to_string());
-        let picture = drawn(machine, form, arguments).map_err(failed)?;
-        if form != Form::Svg {
-            missing.extend(machine.left_out().map_err(|fault| failed(fault.into()))?);
-        }
-        pictures.push((machine.name(), picture));
+        let Still { bytes, left_out } = drawn(machine, form, arguments).map_err(failed)?;
+        missing.extend(left_out);
+        pictures.push((machine.name(), bytes));
     }
     if !missing.is_empty() {
         let letters: String = missing.into_iter().collect();
@@ -127,14 +125,14 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     Ok(Exit::Good)
 }
 
-fn drawn(drawing: &Drawing, form: Form, arguments: &Arguments) -> Result<Vec<u8>, DrawFault> {
+fn drawn(drawing: &Drawing, form: Form, arguments: &Arguments) -> Result<Still, DrawFault> {
     let theme = match (arguments.theme, form) {
         (Theme::Auto, Form::Svg) => draw::Theme::Auto,
         (Theme::Auto | Theme::Light, _) => draw::Theme::Light,
         (Theme::Dark, _) => draw::Theme::Dark,
     };
     match form {
-        Form::Svg => Ok(drawing.svg(theme)?.into_bytes()),
+        Form::Svg => Ok(Still { bytes: drawing.svg(theme)?.into_bytes(), left_out: Vec::new() }),
         Form::Png => drawing.png(theme, arguments.scale),
         Form::Pdf => drawing.pdf(theme),
     }
