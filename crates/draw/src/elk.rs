@@ -2,9 +2,9 @@
 //!
 //! In: a [`Scene`]. Out: a [`Picture`]. The graph is handed over as ELK's JSON, the form that its other implementations
 //! read too. Arrows come in from above; a guard's `yes` goes on below and its `no` to the right, at the hexagon's corner,
-//! so the straight way is the way of yes. Equal scenes give equal pictures: the library's random seed is fixed.
+//! so the straight way is the way of yes. Where `no` leads back to the left, it may leave there. Equal scenes give equal pictures: the library's random seed is fixed.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use serde_json::{Value, json};
 
@@ -27,21 +27,78 @@ impl std::error::Error for LayoutFault {}
 const STACK_BYTES: usize = 128 << 20;
 
 /// From so many shapes on the layout is the coarser one.
-const LARGE: usize = 120;
+pub const LARGE: usize = 120;
 
 /// The scene with everything in its place.
 pub fn placed(scene: &Scene) -> Result<Picture, LayoutFault> {
     if scene.nodes.is_empty() {
         return Ok(Picture { width: 40.0, height: 40.0, ..Picture::default() });
     }
-    let graph = graph(scene).to_string();
+    let mut best = laid_out(scene, &BTreeSet::new())?;
+    // Where `no` leads back on the left, it crosses what leads down to its guard: that one is turned, unless more arrows cross then.
+    let mut turned = BTreeSet::new();
+    for guard in back_to_the_left(&best).into_iter().take(TURNED) {
+        let tried = turned.iter().copied().chain([guard]).collect();
+        let other = laid_out(scene, &tried)?;
+        let fewer = back_to_the_left(&other).len() < back_to_the_left(&best).len();
+        if fewer && crossings(&other).len() <= crossings(&best).len() {
+            (best, turned) = (other, tried);
+        }
+    }
+    Ok(best)
+}
+
+/// LIMIT: so many guards are tried; each costs a layout.
+const TURNED: usize = 4;
+
+/// The layout in which the `no` of these guards leaves at the left.
+fn laid_out(scene: &Scene, turned: &BTreeSet<usize>) -> Result<Picture, LayoutFault> {
+    let graph = graph(scene, turned).to_string();
     // The library walks graphs by recursion, as deep as they are long.
     let answer = stacker::grow(STACK_BYTES, || elkrs::create_elk().layout_json(&graph));
     let answer = answer.map_err(|error| LayoutFault(error.to_string()))?;
     Ok(picture(scene, &answer))
 }
 
-fn graph(scene: &Scene) -> Value {
+/// The guards whose `no` leaves at the right, leads to the left of them, and crosses an arrow.
+fn back_to_the_left(picture: &Picture) -> BTreeSet<usize> {
+    let crossed: BTreeSet<usize> = crossings(picture).into_iter().flat_map(|(one, other)| [one, other]).collect();
+    let comes_back = |line: &Line| {
+        let guard = &picture.boxes[line.from];
+        let starts_right = line.points.first().is_some_and(|start| start.0 > guard.x + guard.width / 2.0);
+        line.branch == Some(false) && starts_right && line.points.iter().any(|point| point.0 < guard.x)
+    };
+    let lines = picture.lines.iter().enumerate();
+    lines.filter(|(index, line)| crossed.contains(index) && comes_back(line)).map(|(_, line)| line.from).collect()
+}
+
+/// The pairs of arrows that cross, once for each crossing. Those with the same end may run together.
+fn crossings(picture: &Picture) -> Vec<(usize, usize)> {
+    // LIMIT: of a larger picture no crossings are looked for.
+    if picture.boxes.len() > LARGE {
+        return Vec::new();
+    }
+    let inner = |at: f64, one: f64, other: f64| one.min(other) < at && at < one.max(other);
+    let crosses = |a: &[(f64, f64)], b: &[(f64, f64)]| {
+        let ((ax, ay), (bx, by)) = ((a[0], a[1]), (b[0], b[1]));
+        let upright = |from: (f64, f64), to: (f64, f64)| from.0 == to.0;
+        match (upright(ax, ay), upright(bx, by)) {
+            (true, false) => inner(ax.0, bx.0, by.0) && inner(bx.1, ax.1, ay.1),
+            (false, true) => inner(bx.0, ax.0, ay.0) && inner(ax.1, bx.1, by.1),
+            _ => false,
+        }
+    };
+    let mut found = Vec::new();
+    for (one, line) in picture.lines.iter().enumerate() {
+        for (other, second) in picture.lines.iter().enumerate().skip(one + 1) {
+            let each = line.points.windows(2).flat_map(|a| second.points.windows(2).map(move |b| (a, b)));
+            found.extend(each.filter(|(a, b)| crosses(a, b)).map(|_| (one, other)));
+        }
+    }
+    found
+}
+
+fn graph(scene: &Scene, turned: &BTreeSet<usize>) -> Value {
     let nested = scene.nodes.iter().any(|node| node.inside.is_some());
     let is_composite = |index: usize| scene.nodes[index].figure == Figure::Composite;
     let edges: Vec<Value> = scene
@@ -58,6 +115,7 @@ fn graph(scene: &Scene) -> Value {
             };
             let straightness = if edge.branch == Some(false) { "1" } else { "10" };
             let to = if scene.free || is_composite(edge.to) { edge.to.to_string() } else { format!("{}in", edge.to) };
+            let (from, to) = if leads_back(scene, edge) { (to, from) } else { (from, to) };
             json!({
                 "id": format!("e{index}"), "sources": [from], "targets": [to],
                 "layoutOptions": { "elk.layered.priority.straightness": straightness },
@@ -91,30 +149,39 @@ fn graph(scene: &Scene) -> Value {
             "elk.padding": "[top=20,left=20,bottom=20,right=20]",
             "elk.hierarchyHandling": if nested { "INCLUDE_CHILDREN" } else { "INHERIT" },
         },
-        "children": children(scene, None),
+        "children": children(scene, None, turned),
         "edges": edges,
     })
 }
 
+/// Whether an arrow leads back to the state with which the composite state begins that both its ends are in. The library is given it
+/// the other way round, so that this state comes to lie above what follows it.
+fn leads_back(scene: &Scene, edge: &Edge) -> bool {
+    let to = &scene.nodes[edge.to];
+    let around = |index: usize| std::iter::successors(scene.nodes[index].inside, |outer| scene.nodes[*outer].inside);
+    let inside = to.inside.is_some_and(|composite| around(edge.from).any(|outer| outer == composite));
+    to.initial && inside && edge.from != edge.to
+}
+
 /// The shapes in a composite state; without one, those in none.
-fn children(scene: &Scene, around: Option<usize>) -> Vec<Value> {
+fn children(scene: &Scene, around: Option<usize>, turned: &BTreeSet<usize>) -> Vec<Value> {
     let here = scene.nodes.iter().enumerate().filter(|(_, node)| node.inside == around);
     here.map(|(index, node)| match node.figure {
         Figure::Composite => json!({
-            "id": index.to_string(), "children": children(scene, Some(index)),
+            "id": index.to_string(), "children": children(scene, Some(index), turned),
             "layoutOptions": {
                 "elk.padding": format!("[top={},left={FRAME},bottom={FRAME},right={FRAME}]", frame_top(node.details.len())),
                 "elk.nodeSize.constraints": "[MINIMUM_SIZE]",
                 "elk.nodeSize.minimum": format!("({},{})", node.width, node.height),
             },
         }),
-        _ => shape(index, node, scene.free),
+        _ => shape(index, node, scene.free, turned.contains(&index)),
     })
     .collect()
 }
 
 /// A shape with the places where arrows meet it.
-fn shape(index: usize, node: &Node, free: bool) -> Value {
+fn shape(index: usize, node: &Node, free: bool, turned: bool) -> Value {
     let (width, height) = (node.width, node.height);
     if free {
         return json!({ "id": index.to_string(), "width": width, "height": height });
@@ -135,7 +202,8 @@ fn shape(index: usize, node: &Node, free: bool) -> Value {
     let mut ports = vec![port("in", "NORTH", width / 2.0, 0.0, None)];
     if node.figure == Figure::Hexagon {
         ports.push(port("yes", "SOUTH", width / 2.0, height, Some(true)));
-        ports.push(port("no", "EAST", width, height / 2.0, Some(false)));
+        let (side, x) = if turned { ("WEST", 0.0) } else { ("EAST", width) };
+        ports.push(port("no", side, x, height / 2.0, Some(false)));
     } else {
         ports.push(port("out", "SOUTH", width / 2.0, height, None));
     }
@@ -147,7 +215,7 @@ fn shape(index: usize, node: &Node, free: bool) -> Value {
             json!({ "text": link, "width": width, "height": height })
         })
         .collect();
-    let side = if node.figure == Figure::Hexagon { "H_LEFT" } else { "H_RIGHT" };
+    let side = if node.figure == Figure::Hexagon && !turned { "H_LEFT" } else { "H_RIGHT" };
     json!({
         "id": index.to_string(), "width": width, "height": height, "ports": ports, "labels": labels,
         "layoutOptions": {
@@ -198,6 +266,9 @@ fn picture(scene: &Scene, answer: &Value) -> Picture {
             points.extend(section.get("startPoint").map(corner));
             points.extend(list(section, "bendPoints").map(corner));
             points.extend(section.get("endPoint").map(corner));
+        }
+        if leads_back(scene, edge) {
+            points.reverse();
         }
         picture.lines.push(line(edge, points));
     }

@@ -3,11 +3,12 @@
 //! In: a scene some of whose shapes have a place. Out: a picture in which these lie exactly there. A shape without a place
 //! comes to lie beside the shapes it hangs together with, as ELK would have it, at the nearest spot that is free; no other
 //! moves for it. The exits of a guard are turned towards what they lead to, links stand where there is room, and arrows
-//! are routed around all of it.
+//! are routed around all of it. What lies as ELK has it keeps ELK's arrows (`kept`).
 //!
 //! Where the given places overlap, so do the shapes: the eye of who places them decides.
 
 use crate::elk::{self, LayoutFault};
+use crate::kept::Kept;
 use crate::picture::{Figure, Label, Picture, Placed};
 use crate::route::{Area, Port, Router, Side, Wire};
 use crate::scene::{Edge, FRAME, Node, Scene, branch_size, frame_top, link_size};
@@ -21,16 +22,58 @@ const APART: f64 = 24.0;
 
 /// The scene with everything in its place.
 pub fn placed(scene: &Scene) -> Result<Picture, LayoutFault> {
-    let centres = centres(scene)?;
+    let unplaced = |node: &Node| node.place.is_none() && node.figure != Figure::Composite;
+    let small = scene.nodes.len() <= elk::LARGE;
+    let ideal = if small || scene.nodes.iter().any(unplaced) { Some(elk::placed(scene)?) } else { None };
+    let centres = centres(scene, ideal.as_ref());
+    let kept = match ideal {
+        Some(ideal) if small => Kept::new(scene, ideal, &centres),
+        _ => Kept::nothing(scene),
+    };
+    let picture = arranged(scene, &centres, &kept);
+    // What stays is no gain where a text of what was moved comes to lie on it.
+    Ok(if is_clean(&picture) { picture } else { arranged(scene, &centres, &Kept::nothing(scene)) })
+}
+
+/// Whether no label lies on another one or on an arrow.
+fn is_clean(picture: &Picture) -> bool {
+    let labels: Vec<Area> = picture.labels.iter().map(of_label).collect();
+    let stretches = picture.lines.iter().flat_map(|line| line.points.windows(2)).map(|pair| {
+        let ((ax, ay), (bx, by)) = (pair[0], pair[1]);
+        (ax.min(bx) - 1.0, ay.min(by) - 1.0, ax.max(bx) + 1.0, ay.max(by) + 1.0)
+    });
+    let others = stretches.collect::<Vec<_>>();
+    labels
+        .iter()
+        .enumerate()
+        .all(|(index, label)| labels[index + 1..].iter().chain(&others).all(|other| overlap(*label, *other) == 0.0))
+}
+
+/// The shapes at these places, with their arrows and labels.
+fn arranged(scene: &Scene, centres: &[(f64, f64)], kept: &Kept) -> Picture {
     let mut boxes: Vec<Placed> =
-        scene.nodes.iter().zip(&centres).map(|(node, centre)| elk::shape_at(node, *centre)).collect();
+        scene.nodes.iter().zip(centres).map(|(node, centre)| elk::shape_at(node, *centre)).collect();
     let known: Vec<Option<(f64, f64)>> = centres.iter().copied().map(Some).collect();
     for (index, node) in scene.nodes.iter().enumerate().filter(|(_, node)| node.figure == Figure::Composite) {
         let (left, upper, right, lower) = frame(scene, &known, index).unwrap_or_default();
         let (width, height) = ((right - left).max(node.width), (lower - upper).max(node.height));
         boxes[index] = Placed { x: left, y: upper, width, height, ..boxes[index].clone() };
+        if let Some(frame) = kept.frame(index) {
+            boxes[index] = frame.clone();
+        }
     }
-    let exits = exits(scene, &centres);
+    if let Some(picture) = kept.whole(&boxes) {
+        return picture;
+    }
+    let ways = kept.ways(scene.edges.len(), &boxes);
+    // A guard one of whose arrows stays is turned as ELK has it.
+    let is_kept = |index: usize| scene.edges.iter().zip(&ways).any(|(edge, way)| edge.from == index && way.is_some());
+    let mut exits = exits(scene, centres);
+    for (edge, side) in scene.edges.iter().zip(&mut exits) {
+        if let (Some(branch), true) = (edge.branch, is_kept(edge.from)) {
+            *side = Some(kept.exit(edge.from, branch));
+        }
+    }
     let mut labels = Vec::new();
     for (edge, side) in scene.edges.iter().zip(&exits) {
         if let (Some(branch), Some(side)) = (edge.branch, side) {
@@ -39,6 +82,10 @@ pub fn placed(scene: &Scene) -> Result<Picture, LayoutFault> {
     }
     for (index, node) in scene.nodes.iter().enumerate() {
         let Some(link) = &node.link else { continue };
+        if let Some(label) = kept.link(index, &boxes) {
+            labels.push(label);
+            continue;
+        }
         let turned = |side: Side| scene.edges.iter().zip(&exits).any(|(e, s)| e.from == index && *s == Some(side));
         labels.push(link_label(index, link, &boxes, &labels, turned));
     }
@@ -59,12 +106,13 @@ pub fn placed(scene: &Scene) -> Result<Picture, LayoutFault> {
         &boxes.iter().map(in_the_way).collect::<Vec<_>>(),
         &labels.iter().map(of_label).collect::<Vec<_>>(),
         &wires,
+        ways,
     )
     .routes();
     let lines = scene.edges.iter().zip(routes).map(|(edge, points)| elk::line(edge, points)).collect();
     let mut picture = Picture { boxes, lines, labels, ..Picture::default() };
     bound(&mut picture);
-    Ok(picture)
+    picture
 }
 
 fn area(shape: &Placed) -> Area {
@@ -108,14 +156,13 @@ fn footprint(node: &Node, (x, y): (f64, f64)) -> Area {
 }
 
 /// The centre of each shape: the one it has, or a free one.
-fn centres(scene: &Scene) -> Result<Vec<(f64, f64)>, LayoutFault> {
+fn centres(scene: &Scene, ideal: Option<&Picture>) -> Vec<(f64, f64)> {
     let within = |(x, y): (f64, f64)| (x.clamp(-FAR, FAR), y.clamp(-FAR, FAR));
     let is_composite = |index: usize| scene.nodes[index].figure == Figure::Composite;
     // A composite state has no place of its own.
     let given = |node: &Node| if node.figure == Figure::Composite { Some((0.0, 0.0)) } else { node.place.map(within) };
     let mut centres: Vec<Option<(f64, f64)>> = scene.nodes.iter().map(given).collect();
-    if centres.iter().any(Option::is_none) {
-        let ideal = elk::placed(scene)?;
+    if let Some(ideal) = ideal.filter(|_| centres.iter().any(Option::is_none)) {
         let ideal: Vec<(f64, f64)> =
             ideal.boxes.iter().map(|shape| (shape.x + shape.width / 2.0, shape.y + shape.height / 2.0)).collect();
         let placed = |centres: &[Option<(f64, f64)>], index: usize| -> Vec<usize> {
@@ -140,7 +187,7 @@ fn centres(scene: &Scene) -> Result<Vec<(f64, f64)>, LayoutFault> {
             centres[index] = Some(free_spot(scene, &centres, index, wanted(&centres, &ideal, index, &near)));
         }
     }
-    Ok(centres.into_iter().flatten().collect())
+    centres.into_iter().flatten().collect()
 }
 
 /// Where ELK would have the shape, seen from those of `near` in the middle of their places.

@@ -11,6 +11,7 @@ mod drawing;
 mod elk;
 mod fixed;
 mod font;
+mod kept;
 mod measure;
 mod notation;
 mod picture;

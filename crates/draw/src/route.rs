@@ -7,7 +7,7 @@
 //!
 //! There is always a way: through a shape where there is no other, at a price. LIMIT: costs are of whole eighths of pixels.
 
-use std::cmp::Reverse;
+use std::cmp::{Ordering, Reverse};
 use std::collections::BinaryHeap;
 
 use rustc_hash::FxHashMap;
@@ -88,6 +88,8 @@ const LARGE: usize = 80;
 /// The grid, what is in the way, and the wires as far as they lie.
 pub struct Router<'w> {
     wires: &'w [Wire],
+    /// The corners of wires that lie already.
+    given: Vec<Option<Corners>>,
     large: bool,
     xs: Vec<f64>,
     ys: Vec<f64>,
@@ -100,12 +102,16 @@ pub struct Router<'w> {
     known: Vec<bool>,
 }
 
+/// The corners of a wire, from its start to its end.
+pub type Corners = Vec<(f64, f64)>;
+
 /// A node of the grid and the way in which it was come to.
 type Spot = u32;
 
 impl<'w> Router<'w> {
-    /// The grid for these shapes and labels.
-    pub fn new(shapes: &[Area], labels: &[Area], wires: &'w [Wire]) -> Router<'w> {
+    /// The grid for these shapes and labels. The wires whose corners are `given` stay as they are.
+    pub fn new(shapes: &[Area], labels: &[Area], wires: &'w [Wire], given: Vec<Option<Corners>>) -> Router<'w> {
+        let corners: Vec<(f64, f64)> = given.iter().flatten().flatten().copied().collect();
         let ports = || wires.iter().flat_map(|wire| wire.start.iter().chain(&wire.end));
         let large = shapes.len() >= LARGE;
         let beside = |low: f64, high: f64, clear: f64| {
@@ -118,11 +124,11 @@ impl<'w> Router<'w> {
         let xs = shapes.iter().flat_map(|s| beside(s.0, s.2, CLEAR)).chain(labels.iter().flat_map(|l| tight(l.0, l.2)));
         let ys = shapes.iter().flat_map(|s| beside(s.1, s.3, CLEAR)).chain(labels.iter().flat_map(|l| tight(l.1, l.3)));
         let apart = if large { TRACK - 1.0 } else { 3.0 };
-        let xs = tracks(ports().map(|port| port.at.0), xs, apart);
-        let ys = tracks(ports().map(|port| port.at.1), ys, apart);
+        let xs = tracks(ports().map(|port| port.at.0).chain(corners.iter().map(|corner| corner.0)), xs, apart);
+        let ys = tracks(ports().map(|port| port.at.1).chain(corners.iter().map(|corner| corner.1)), ys, apart);
         let base = vec![0; xs.len() * ys.len() * 2];
         let known = vec![false; base.len()];
-        let mut router = Router { wires, large, xs, ys, base, laid: FxHashMap::default(), known };
+        let mut router = Router { wires, given, large, xs, ys, base, laid: FxHashMap::default(), known };
         for shape in shapes {
             router.avoid(*shape, CLEAR - 1.0, BESIDE);
             router.avoid(*shape, RIM, BORDER);
@@ -162,14 +168,20 @@ impl<'w> Router<'w> {
     }
 
     /// The corners of each wire, from its start to its end.
-    pub fn routes(mut self) -> Vec<Vec<(f64, f64)>> {
-        let mut order: Vec<usize> = (0..self.wires.len()).collect();
+    pub fn routes(mut self) -> Vec<Corners> {
+        let mut order: Vec<usize> = (0..self.wires.len()).filter(|index| self.given[*index].is_none()).collect();
         let reach = |wire: &Wire| match (wire.start.first(), wire.end.first()) {
             (Some(a), Some(b)) => ((a.at.0 - b.at.0).abs() + (a.at.1 - b.at.1).abs()) as u64,
             _ => 0,
         };
         order.sort_by_key(|index| reach(&self.wires[*index]));
         let mut ways: Vec<Vec<Spot>> = vec![Vec::new(); self.wires.len()];
+        for index in 0..self.wires.len() {
+            if let Some(corners) = &self.given[index] {
+                let way = self.along(corners);
+                self.lay(index, &way, true);
+            }
+        }
         for round in 0..if self.large { 1 } else { 2 } {
             for &index in &order {
                 if round > 0 {
@@ -179,7 +191,38 @@ impl<'w> Router<'w> {
                 self.lay(index, &ways[index], true);
             }
         }
-        ways.iter().map(|way| way.iter().map(|spot| self.point(*spot)).collect()).collect()
+        let given = std::mem::take(&mut self.given);
+        let way = |(way, given): (&Vec<Spot>, Option<Corners>)| {
+            given.unwrap_or_else(|| way.iter().map(|spot| self.point(*spot)).collect())
+        };
+        ways.iter().zip(given).map(way).collect()
+    }
+
+    /// The nodes of the grid on a wire with these corners, all of which are nodes.
+    fn along(&self, corners: &[(f64, f64)]) -> Vec<Spot> {
+        let mut way = Vec::new();
+        for pair in corners.windows(2) {
+            let (from, to) = (self.nearest(pair[0]), self.nearest(pair[1]));
+            let side = match (from.0.cmp(&to.0), from.1.cmp(&to.1)) {
+                (Ordering::Less, _) => Side::Right,
+                (Ordering::Greater, _) => Side::Left,
+                (_, Ordering::Less) => Side::Below,
+                (_, Ordering::Greater) => Side::Above,
+                _ => continue,
+            };
+            let (mut node, mut steps) = (from, from.0.abs_diff(to.0).max(from.1.abs_diff(to.1)));
+            way.push(self.spot(node, side));
+            while let (true, Some((next, ..))) = (steps > 0, self.next(node, side)) {
+                (node, steps) = (next, steps - 1);
+                way.push(self.spot(node, side));
+            }
+        }
+        way
+    }
+
+    fn nearest(&self, (x, y): (f64, f64)) -> (usize, usize) {
+        let index = |lines: &[f64], at: f64| lines.partition_point(|line| *line < at).min(lines.len() - 1);
+        (index(&self.xs, x), index(&self.ys, y))
     }
 
     fn node(&self, spot: Spot) -> (usize, usize) {
@@ -197,8 +240,7 @@ impl<'w> Router<'w> {
     }
 
     fn at(&self, port: &Port) -> (usize, usize) {
-        let index = |lines: &[f64], at: f64| lines.partition_point(|line| *line < at).min(lines.len() - 1);
-        (index(&self.xs, port.at.0), index(&self.ys, port.at.1))
+        self.nearest(port.at)
     }
 
     /// The next node in a direction, the stretch to it and its length.
