@@ -12,6 +12,7 @@
 mod builder;
 mod flow;
 mod html;
+pub mod keys;
 mod lanes;
 mod levels;
 mod markup;

@@ -11,6 +11,7 @@ use inputs::Scalar;
 use inputs::node::{Key, Node, Shape, read};
 use syntax::{Diagnostic, FileId, Span};
 
+use crate::keys::{self, Lanes};
 use crate::spec::{ActivitySpec, BufferSpec, CounterSpec, FlowSpec, HopSpec, QueueSpec, SeriesSpec, Spec, TaskSpec};
 use crate::tone::Tone;
 
@@ -187,21 +188,7 @@ impl Reader {
     }
 
     fn spec(&mut self, root: &Node) -> Spec {
-        let known = [
-            "title",
-            "note",
-            "tick",
-            "window",
-            "activities",
-            "tasks",
-            "buffers",
-            "queues",
-            "values",
-            "series",
-            "flow",
-            "charts",
-        ];
-        let fields = self.fields(Some(root), &known);
+        let fields = self.fields(Some(root), &keys::ROOT);
         let tick_ns = fields.get("tick").and_then(|node| self.duration(node));
         let window = fields.get("window").map_or(0, |node| self.ticks(node, tick_ns));
         let activities = self.activities(fields.get("activities"));
@@ -214,8 +201,8 @@ impl Reader {
             tasks: self.tasks(fields.get("tasks")),
             buffers: self.buffers(fields.get("buffers")),
             queues: [
-                self.queues(fields.get("queues"), "queue", "length"),
-                self.queues(fields.get("values"), "shared value", "unread"),
+                self.queues(fields.get("queues"), "queue", keys::QUEUES),
+                self.queues(fields.get("values"), "shared value", keys::VALUES),
             ]
             .concat(),
             series: self.series(fields.get("series")),
@@ -243,7 +230,7 @@ impl Reader {
         };
         let mut charts = Vec::new();
         for (key, node) in self.fields(root.get("charts"), &[]).0 {
-            let fields = self.fields(Some(node), &["each", "machines"]);
+            let fields = self.fields(Some(node), &keys::CHART);
             let named = |id: String| {
                 let name = tasks.iter().find(|(known, _)| *known == id).map(|(_, name)| name.clone());
                 (id.clone(), name.unwrap_or(id))
@@ -256,7 +243,7 @@ impl Reader {
             };
             let mut machines = Vec::new();
             for (machine, node) in self.fields(fields.get("machines"), &[]).0 {
-                let when = self.fields(Some(node), &["when"]).get("when");
+                let when = self.fields(Some(node), &keys::MACHINE).get("when");
                 let when = when.and_then(|node| Some((self.text(Some(node))?, node.span)));
                 machines.push(WantedMachine { name: machine.text.clone(), span: machine.span, when });
             }
@@ -315,9 +302,9 @@ impl Reader {
         activities
     }
 
-    /// The lanes of a group; `told` are the keys of an entry that are not terms.
-    fn lanes<'a>(&mut self, node: Option<&'a Node>, told: &[&str], terms: &[&str]) -> Vec<Lane<'a>> {
-        let group = self.fields(node, &["each", "terms", "counters"]);
+    /// The lanes of a group.
+    fn lanes<'a>(&mut self, node: Option<&'a Node>, Lanes { told, terms, .. }: Lanes) -> Vec<Lane<'a>> {
+        let group = self.fields(node, &keys::GROUP);
         let shared = self.fields(group.get("terms"), terms);
         let counters = self.fields(group.get("counters"), &[]);
         let known = [told, terms].concat();
@@ -342,8 +329,7 @@ impl Reader {
     }
 
     fn tasks(&mut self, node: Option<&Node>) -> Vec<TaskSpec> {
-        let terms = ["activity", "period", "deadline", "may_miss", "release", "cycles", "met", "missed", "skipped"];
-        let lanes = self.lanes(node, &["name", "caption"], &terms);
+        let lanes = self.lanes(node, keys::TASKS);
         let task = |lane: &Lane| TaskSpec {
             name: self.text(lane.own.get("name")).unwrap_or_else(|| lane.id.to_string()),
             caption: self.text(lane.own.get("caption")).unwrap_or_default(),
@@ -361,8 +347,7 @@ impl Reader {
     }
 
     fn buffers(&mut self, node: Option<&Node>) -> Vec<BufferSpec> {
-        let terms = ["arrays", "writing", "reading", "write_index", "read_index", "lock", "swaps"];
-        let lanes = self.lanes(node, &["from", "to"], &terms);
+        let lanes = self.lanes(node, keys::BUFFERS);
         let buffer = |lane: &Lane| BufferSpec {
             from: self.text(lane.own.get("from")).unwrap_or_else(|| lane.id.to_string()),
             to: self.text(lane.own.get("to")).unwrap_or_default(),
@@ -378,10 +363,10 @@ impl Reader {
         lanes.iter().map(buffer).collect()
     }
 
-    /// Queues, or what holds one datum; the term `length` counts what is in them.
-    fn queues(&mut self, node: Option<&Node>, kind: &str, length: &'static str) -> Vec<QueueSpec> {
-        let terms = if kind == "queue" { &[length, "capacity"][..] } else { &[length] };
-        let lanes = self.lanes(node, &["from", "to"], terms);
+    /// Queues, or what holds one datum; the first term of their group counts what is in them.
+    fn queues(&mut self, node: Option<&Node>, kind: &str, group: keys::Lanes) -> Vec<QueueSpec> {
+        let length = group.terms[0];
+        let lanes = self.lanes(node, group);
         let mut queues = Vec::new();
         for lane in &lanes {
             let Some(held) = self.lane_term(lane, length) else {
@@ -407,7 +392,7 @@ impl Reader {
     fn series(&mut self, node: Option<&Node>) -> Vec<SeriesSpec> {
         let mut all = Vec::new();
         for (key, node) in self.fields(node, &[]).0 {
-            let fields = self.fields(Some(node), &["caption", "value", "unit", "bound"]);
+            let fields = self.fields(Some(node), &keys::SERIES);
             let Some(value) = self.term(fields.get("value"), "") else {
                 self.refuse(key.span, format!("`{}` has no `value`: name the term to be shown", key.text));
                 continue;
@@ -427,7 +412,7 @@ impl Reader {
     }
 
     fn flow(&mut self, node: &Node, tasks: Option<&Node>) -> FlowSpec {
-        let fields = self.fields(Some(node), &["noun", "hops"]);
+        let fields = self.fields(Some(node), &keys::FLOW);
         let noun = match self.list(fields.get("noun")) {
             [one, many] => (self.text(Some(one)).unwrap_or_default(), self.text(Some(many)).unwrap_or_default()),
             _ => ("datum".to_string(), "data".to_string()),
@@ -438,7 +423,7 @@ impl Reader {
         };
         let mut hops = Vec::new();
         for item in self.list(fields.get("hops")) {
-            let hop = self.fields(Some(item), &["task", "event", "value"]);
+            let hop = self.fields(Some(item), &keys::HOP);
             let (id, event) = (self.text(hop.get("task")).unwrap_or_default(), self.text(hop.get("event")));
             let Some(value) = self.term(hop.get("value"), &id) else {
                 self.refuse(item.span, "the hop has no `value`: name the term that tells which datum it works on");

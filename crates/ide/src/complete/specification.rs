@@ -1,11 +1,11 @@
 //! What can be written at a place of `MODEL.report.yaml` or `MODEL.verify.yaml`: its keys, and terms of the model.
 //!
 //! In: a text, however broken, and an offset. Out: the keys that lead there, and a [`Slot`]. Only lines and their indents are read, so
-//! that a text that is no YAML yet is as good as one that is. The keys are those that the readers of these files know, which a test
-//! holds them to.
+//! that a text that is no YAML yet is as good as one that is. The keys of a report are those of its reader; those of a verification are
+//! the ones that its reader knows, which a test holds them to.
 
 use groundstate::Kind;
-use groundstate::report::Tone;
+use groundstate::report::{Tone, keys};
 
 /// What may stand at a place.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -34,11 +34,6 @@ pub(super) struct At {
     pub has_colon: bool,
 }
 
-const TASK: [&str; 9] = ["activity", "period", "deadline", "may_miss", "release", "cycles", "met", "missed", "skipped"];
-const BUFFER: [&str; 7] = ["arrays", "writing", "reading", "write_index", "read_index", "lock", "swaps"];
-const QUEUE: [&str; 2] = ["length", "capacity"];
-const VALUE: [&str; 1] = ["unread"];
-
 /// What may stand at an offset of a specification.
 pub(super) fn at(kind: Kind, text: &str, offset: u32) -> Option<At> {
     let offset = (offset as usize).min(text.len());
@@ -60,34 +55,16 @@ pub(super) fn at(kind: Kind, text: &str, offset: u32) -> Option<At> {
     Some(At { range, slot, has_colon: rest.starts_with(':') })
 }
 
-fn in_report(keys: &[&str], value: bool) -> Slot {
-    let group = |name: &str| match name {
-        "tasks" => Some((&["name", "caption"][..], &TASK[..])),
-        "buffers" => Some((&["from", "to"][..], &BUFFER[..])),
-        "queues" => Some((&["from", "to"][..], &QUEUE[..])),
-        "values" => Some((&["from", "to"][..], &VALUE[..])),
-        _ => None,
-    };
+fn in_report(path: &[&str], value: bool) -> Slot {
+    let group =
+        |name: &str| keys::LANES.into_iter().find(|lanes| lanes.group == name).map(|lanes| (lanes.told, lanes.terms));
     let term = Slot::Term { condition: false };
     let condition = Slot::Term { condition: true };
-    match (keys, value) {
-        ([], false) => Slot::Keys(vec![
-            "title",
-            "note",
-            "tick",
-            "window",
-            "activities",
-            "tasks",
-            "buffers",
-            "queues",
-            "values",
-            "series",
-            "flow",
-            "charts",
-        ]),
+    match (path, value) {
+        ([], false) => Slot::Keys(keys::ROOT.to_vec()),
         (["activities"], false) => Slot::TermKey,
         (["activities", _, ..], true) => Slot::Words(Tone::ALL.map(Tone::name).to_vec()),
-        ([of], false) if group(of).is_some() => Slot::Keys(vec!["each", "terms", "counters"]),
+        ([of], false) if group(of).is_some() => Slot::Keys(keys::GROUP.to_vec()),
         ([of, "each"], false) if group(of).is_some() => Slot::TermKey,
         ([of, "terms"], false) => group(of).map_or(Slot::Nothing, |(_, terms)| Slot::Keys(terms.to_vec())),
         ([of, "each", _], false) => group(of).map_or(Slot::Nothing, |(told, terms)| Slot::Keys([told, terms].concat())),
@@ -96,16 +73,16 @@ fn in_report(keys: &[&str], value: bool) -> Slot {
             Some((_, terms)) if terms.contains(key) => term,
             _ => Slot::Nothing,
         },
-        (["series", _], false) => Slot::Keys(vec!["caption", "value", "unit", "bound"]),
+        (["series", _], false) => Slot::Keys(keys::SERIES.to_vec()),
         (["series", _, "value" | "bound"], true) => term,
-        (["series", _, "unit"], true) => Slot::Words(vec!["ticks", "number"]),
-        (["flow"], false) => Slot::Keys(vec!["noun", "hops"]),
-        (["flow", "hops", ITEM], false) => Slot::Keys(vec!["task", "event", "value"]),
+        (["series", _, "unit"], true) => Slot::Words(keys::UNITS.to_vec()),
+        (["flow"], false) => Slot::Keys(keys::FLOW.to_vec()),
+        (["flow", "hops", ITEM], false) => Slot::Keys(keys::HOP.to_vec()),
         (["flow", "hops", ITEM, "task" | "value"], true) => term,
         (["charts"], false) => Slot::Chart,
-        (["charts", _], false) => Slot::Keys(vec!["each", "machines"]),
+        (["charts", _], false) => Slot::Keys(keys::CHART.to_vec()),
         (["charts", _, "each", ..], true) => term,
-        (["charts", _, "machines", _], false) => Slot::Keys(vec!["when"]),
+        (["charts", _, "machines", _], false) => Slot::Keys(keys::MACHINE.to_vec()),
         (["charts", _, "machines", _, "when"], true) => condition,
         _ => Slot::Nothing,
     }
