@@ -36,6 +36,8 @@ pub(crate) struct Lane<'a> {
     /// Thin lines across the lane, in the foreground or in the background, and their meaning.
     pub lines: &'a [u64],
     pub line: LineKind,
+    /// From the beginning of a period to its deadline, if that is not the end of the period.
+    pub deadline: Option<u64>,
     /// Crosses: deadlines missed.
     pub crosses: &'a [u64],
     pub graph: Option<Graph<'a>>,
@@ -109,6 +111,7 @@ fn task_lane<'a>(report: &'a Report, task: &'a Task) -> Lane<'a> {
     Lane {
         strips: vec![Strip { y: 0.0, height: TASK, track: &task.track, full: false, rhythm: task.period }],
         lines: &task.releases,
+        deadline: task.early_deadline(),
         crosses: &task.misses,
         ..Lane::plain(task.name.clone(), task.describe(report.time), TASK)
     }
@@ -177,7 +180,25 @@ impl<'a> Graph<'a> {
 impl Lane<'_> {
     fn plain(name: String, caption: String, height: f64) -> Self {
         let (heading, y, strips, graph) = (None, 0.0, Vec::new(), None);
-        Lane { heading, name, caption, y, height, strips, lines: &[], line: LineKind::Due, crosses: &[], graph }
+        Lane {
+            heading,
+            name,
+            caption,
+            y,
+            height,
+            strips,
+            lines: &[],
+            line: LineKind::Due,
+            deadline: None,
+            crosses: &[],
+            graph,
+        }
+    }
+
+    /// The ticks of its deadlines.
+    pub fn deadlines(&self) -> Vec<u64> {
+        let of = |length: u64| self.lines.iter().map(move |begin| begin.saturating_add(length)).collect();
+        self.deadline.map_or_else(Vec::new, of)
     }
 
     /// Where its middle lies.

@@ -14,6 +14,7 @@ mod flow;
 mod html;
 pub mod keys;
 mod lanes;
+mod legend;
 mod levels;
 mod markup;
 mod mutation;

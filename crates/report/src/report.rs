@@ -356,6 +356,11 @@ impl Task {
         self.deadline.or(self.period)
     }
 
+    /// Its deadline, if that is not the end of its period.
+    pub(crate) fn early_deadline(&self) -> Option<u64> {
+        self.deadline.filter(|deadline| Some(*deadline) != self.period)
+    }
+
     /// Its period and its caption.
     pub fn describe(&self, time: TimeBase) -> String {
         match self.period {

@@ -31,10 +31,12 @@ pub enum Tone {
     ReadPlace,
     /// The place where the next writing will happen.
     WritePlace,
+    /// There is no value. No specification names it, and it is no part of a stack.
+    Undef,
 }
 
 impl Tone {
-    /// All tones, from the bottom of a stacked drawing to its top.
+    /// All tones of values, from the bottom of a stacked drawing to its top.
     pub const ALL: [Tone; 10] = [
         Tone::Idle,
         Tone::Work,
@@ -66,6 +68,7 @@ impl Tone {
             Tone::Wait => "wait",
             Tone::ReadPlace => "readplace",
             Tone::WritePlace => "writeplace",
+            Tone::Undef => "undef",
         }
     }
 
@@ -78,6 +81,7 @@ impl Tone {
     pub fn height(self) -> f64 {
         match self {
             Tone::Idle => 0.0,
+            Tone::Undef => 0.24,
             Tone::Work => 0.72,
             Tone::Hold => 0.72,
             Tone::Wait => 1.0,
@@ -88,7 +92,7 @@ impl Tone {
     /// What the palette calls its fill; nothing is drawn for an idle task.
     fn fill(self) -> Option<&'static str> {
         match self {
-            Tone::Idle => None,
+            Tone::Idle | Tone::Undef => None,
             Tone::Wait => Some("late"),
             tone => Some(tone.name()),
         }
@@ -97,7 +101,9 @@ impl Tone {
 
 /// The style sheet of the tones, with names of colours: `.work` fills, `.on-work` is ink on it.
 pub(crate) fn tone_css() -> String {
-    let mut sheet = String::new();
+    // The paper hides the line of a lane: there is nothing, not even an idle task.
+    let mut sheet =
+        ".undef{fill:$paper;background-color:$paper;stroke:$faint;stroke-width:1;stroke-dasharray:1 3}\n".to_owned();
     for tone in Tone::ALL {
         let name = tone.name();
         let _ = match tone.fill() {

@@ -1,6 +1,6 @@
 //! Figures of small runs, counted by hand.
 
-use report::{Report, ReportBuilder, SeriesSpec, Spec, TaskSpec};
+use report::{ActivitySpec, Report, ReportBuilder, SeriesSpec, Spec, SvgOptions, TaskSpec, Tone, render_svg};
 
 /// A run; `states` has a value for each of the terms.
 fn run(spec: Spec, states: &[&[(&str, &str)]]) -> Report {
@@ -76,4 +76,32 @@ fn what_a_task_may_miss_is_no_trouble() {
     let report = late("3", "true");
     assert!(report.troubles().is_empty(), "{:?}", report.troubles());
     assert_eq!(report.deadlines(), (0, 2));
+}
+
+/// A mark stands at each deadline that is not the end of its period, and the legend says so.
+#[test]
+fn early_deadlines_are_marked() {
+    let picture = |deadline| render_svg(&late(deadline, "true"), &SvgOptions::default());
+    let (early, whole) = (picture("3"), picture("undef"));
+    assert!(early.contains("<path class=\"deadline\" d=\"M") && early.contains(">deadline</text>"), "{early}");
+    assert!(!whole.contains("<path class=\"deadline\"") && whole.contains("the deadline of the one before"), "{whole}");
+}
+
+/// A location without a value is not drawn like one that is false.
+#[test]
+fn undef_is_not_false() {
+    let lane = |name: &str| TaskSpec { name: name.into(), activity: name.into(), ..TaskSpec::default() };
+    let activity = |value: &str, tone| ActivitySpec { value: value.into(), label: value.into(), tone };
+    let activities = vec![activity("false", Tone::Idle), activity("true", Tone::Work)];
+    let spec = Spec { activities, tasks: vec![lane("unset"), lane("off")], ..Spec::default() };
+    let report = run(spec, &[&[("off", "false")], &[], &[("unset", "true")]]);
+    let kinds = |task: usize| -> Vec<(u64, u64, &str)> {
+        let track = &report.tasks[task].track;
+        track.spans().iter().map(|span| (span.start, span.end, track.kind(*span).label.as_str())).collect()
+    };
+    assert_eq!(kinds(0), [(0, 2, "undef"), (2, 3, "true")]);
+    assert_eq!(kinds(1), [(0, 3, "false")]);
+    assert_eq!(Tone::named("undef"), None, "it is no tone of a specification");
+    let picture = render_svg(&report, &SvgOptions::default());
+    assert!(picture.contains("<path class=\"undef\"") && picture.contains(">undef</text>"), "{picture}");
 }

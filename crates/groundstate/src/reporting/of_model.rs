@@ -2,7 +2,7 @@
 //!
 //! In: the program, and the chart beside it, if there is one. Out: the text of a specification, like one written by hand: a lane for
 //! each location that takes values of an enumeration, Booleans or named elements, a curve for each that takes numbers, and the chart's
-//! machines. What cannot be listed, or is too much to look at, is left out; a comment in the text says so.
+//! machines. What cannot be listed, or is too much to look at, is left out; the note says so.
 
 use std::fmt::Write;
 use std::sync::Arc;
@@ -30,10 +30,15 @@ enum Shown {
 /// The specification of a model's run; `chart` is the chart beside it, and its file's name.
 pub fn model_specification(program: &Arc<Program>, chart: Option<(&Chart, &str)>) -> String {
     let mut machine = Machine::new(Arc::clone(program), Limits::default());
-    let (mut lanes, mut curves, mut left) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut lanes, mut curves) = (Vec::new(), Vec::new());
+    // Functions that are left out: there is no picture of such values, or there would be too many.
+    let (mut unlike, mut left) = (Vec::new(), Vec::new());
     let mut enums: Vec<DomainId> = Vec::new();
     for function in program.functions.iter().filter(|function| is_state(function)) {
-        let Some(shown) = shown(program, function.codomain) else { continue };
+        let Some(shown) = shown(program, function.codomain) else {
+            unlike.push(function.name.as_str());
+            continue;
+        };
         let (group, most) = match shown {
             Shown::Lane => (&mut lanes, LANES),
             Shown::Curve => (&mut curves, CURVES),
@@ -47,10 +52,15 @@ pub fn model_specification(program: &Arc<Program>, chart: Option<(&Chart, &str)>
         }
     }
     let mut out = String::new();
-    let _ = writeln!(out, "note: {}", quoted("The functions of the model that take few values, and its numbers."));
-    if !left.is_empty() {
-        let _ = writeln!(out, "# Left out, since there would be too many lanes: {}", left.join(", "));
+    let mut note = "The functions of the model that take few values, and its integers.".to_string();
+    for (names, why) in
+        [(&left, "there would be too many lanes or curves"), (&unlike, "neither a lane nor a curve shows such values")]
+    {
+        if !names.is_empty() {
+            let _ = write!(note, " Left out, since {why}: {}.", names.join(", "));
+        }
     }
+    let _ = writeln!(out, "note: {}", quoted(&note));
     out.push_str("activities:\n  \"false\": [\"false\", idle]\n  \"true\": [\"true\", work]\n");
     // A literal has the same colour whenever it is first seen in a run: by its place among all of them.
     let literals = enums.iter().filter_map(|domain| literals(program, *domain)).flatten();

@@ -117,7 +117,9 @@ impl TaskWatch {
 
     /// The index of the present activity; a value seen for the first time becomes an activity.
     fn kind(&mut self, readings: &Readings, activities: &mut Vec<Kind>) -> Option<u16> {
-        let value = readings.value(self.activity)?;
+        let Some(value) = readings.value(self.activity) else {
+            return Some(undef(activities));
+        };
         if let Some((_, index)) = self.known.iter().find(|(known, _)| *known == value) {
             return Some(*index);
         }
@@ -187,4 +189,14 @@ impl TaskWatch {
         self.task.track.kinds = activities.to_vec();
         self.task
     }
+}
+
+/// The index of the activity that stands for no value.
+fn undef(activities: &mut Vec<Kind>) -> u16 {
+    let known = activities.iter().position(|kind| kind.tone == Tone::Undef);
+    let index = known.unwrap_or_else(|| {
+        activities.push(Kind { label: "undef".to_owned(), tone: Tone::Undef });
+        activities.len() - 1
+    });
+    index as u16
 }

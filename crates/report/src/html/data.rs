@@ -94,6 +94,9 @@ fn put_lane<'a>(out: &mut String, lane: &Lane<'a>, kinds: &mut Vec<&'a Kind>) {
         if lane.line == LineKind::Due { "due" } else { "swap" },
         differences(lane.lines)
     );
+    if let Some(deadline) = lane.deadline {
+        put!(out, ",\"dl\":{deadline}");
+    }
     if !lane.crosses.is_empty() {
         put!(out, ",\"x\":\"{}\"", differences(lane.crosses));
     }

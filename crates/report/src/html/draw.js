@@ -5,7 +5,7 @@
 
 function drawingOf(run) {
   const HEAD = 22, RIGHT = 14, FINE = 2.2, COLUMN = 3, RHYTHM = 14, APART = 78, WAYS_APART = 14, LINES_APART = 7;
-  const HEIGHT = { idle: 0, work: 0.72, hold: 0.72, wait: 1 };
+  const HEIGHT = { idle: 0, undef: 0.24, work: 0.72, hold: 0.72, wait: 1 };
   const TONES = ["idle", "work", "read", "write", "hold", "message", "other", "wait", "readplace", "writeplace"];
 
   const px = (n) => String(Math.round(n * 100) / 100);
@@ -34,6 +34,7 @@ function drawingOf(run) {
   for (const lane of run.lanes) {
     for (const strip of lane.s) Object.assign(strip, spans(strip.d));
     lane.lines = ticks(lane.l);
+    lane.deadlines = lane.dl ? lane.lines.map((tick) => tick + lane.dl) : [];
     lane.crosses = ticks(lane.x);
   }
   const ways = run.flow ? run.flow.ways.map(ticks) : [];
@@ -65,8 +66,12 @@ function drawingOf(run) {
   }
   function fitted(text, size, width) {
     if (textWidth(text, size) <= width) return text;
-    while (text && textWidth(text + "\u2026", size) > width) text = text.slice(0, -1);
-    return text.trimEnd() + "\u2026";
+    // What stands in the brackets at its end is kept if it is short: by their arguments the locations of a function differ.
+    let kept = text.endsWith(")") && text.includes("(") ? text.slice(text.indexOf("(")) : "";
+    if (textWidth(kept, size) > width * 0.7) kept = "";
+    let cut = text.slice(0, text.length - kept.length);
+    while (cut && textWidth(cut.trimEnd() + "\u2026" + kept, size) > width) cut = cut.slice(0, -1);
+    return cut.trimEnd() + "\u2026" + kept;
   }
 
   function viewOf(start, end, width) {
@@ -95,10 +100,10 @@ function drawingOf(run) {
   function drawLabels(lane, view) {
     let out = lane.hd ? `<text class="heading" x="0" y="${px(lane.hd[1])}">${escaped(lane.hd[0])}</text>` : "";
     const room = view.left - 12 - (lane.h > 40 ? 30 : 0), middle = Math.min(lane.y + lane.h / 2, lane.y + 17);
-    const name = escaped(fitted(lane.n, 13, room));
-    if (!lane.c) return out + `<text class="name" x="0" y="${px(middle + 4)}">${name}</text>`;
-    out += `<text class="name" x="0" y="${px(middle - 1.5)}">${name}</text>`;
-    return out + `<text class="caption" x="0" y="${px(middle + 11.5)}">${escaped(fitted(lane.c, 11, room))}</text>`;
+    const name = fitted(lane.n, 13, room), caption = fitted(lane.c, 11, room);
+    const whole = name !== lane.n || caption !== lane.c ? `<title>${escaped(`${lane.n} ${lane.c}`.trimEnd())}</title>` : "";
+    out += `<g>${whole}<text class="name" x="0" y="${px(middle + (lane.c ? -1.5 : 4))}">${escaped(name)}</text>`;
+    return out + (lane.c ? `<text class="caption" x="0" y="${px(middle + 11.5)}">${escaped(caption)}</text>` : "") + "</g>";
   }
 
   /** Columns of whole periods where there is a short period, at multiples of their length. */
@@ -143,11 +148,11 @@ function drawingOf(run) {
       const x = view.clamped(strip.starts[i]), wide = view.clamped(strip.ends[i]) - x, width = wide - (wide > 4 ? 0.6 : 0);
       const height = strip.f ? strip.h : strip.h * (tone in HEIGHT ? HEIGHT[tone] : 0.86);
       paths[tone] = (paths[tone] || "") + boxPath(x, strip.y + (strip.h - height) / 2, width, height);
-      if (!strip.f && width > 24 && width >= textWidth(label, 10.5) + 10) {
+      if (!strip.f && tone !== "undef" && width > 24 && width >= textWidth(label, 10.5) + 10) {
         words += `<text class="word on-${tone}" x="${px(x + 5)}" y="${px(strip.y + strip.h / 2 + 3.6)}">${escaped(label)}</text>`;
       }
     }
-    return TONES.map((tone) => paths[tone] ? `<path class="${tone}" d="${paths[tone]}"/>` : "").join("") + words;
+    return [...TONES, "undef"].map((tone) => paths[tone] ? `<path class="${tone}" d="${paths[tone]}"/>` : "").join("") + words;
   }
 
   function visible(items, view, least) {
@@ -159,6 +164,8 @@ function drawingOf(run) {
     const lines = visible(lane.lines, view, LINES_APART).map((tick) => `M${px(view.x(tick))} ${px(lane.y - 2)}V${px(lane.y + lane.h + 2)}`).join("");
     const due = lane.lk === "due", middle = px(lane.y + lane.h / 2);
     let out = due && lane.s.length ? `<path class="base" d="M${px(view.left)} ${middle}H${px(view.right)}"/><path class="due" d="${lines}"/>` : "";
+    const ends = visible(lane.deadlines, view, LINES_APART).map((tick) => `M${px(view.x(tick))} ${px(lane.y - 2)}V${px(lane.y + lane.h + 2)}`).join("");
+    if (ends) out += `<path class="deadline" d="${ends}"/>`;
     for (const strip of lane.s) out += drawStrip(strip, view);
     if (!due) out += `<path class="swap" d="${lines}"/>`;
     for (const tick of visible(lane.crosses, view, 1)) out += `<path class="miss" d="M${px(view.x(tick))} ${px(lane.y + 5)}l4 -6h-8z"/>`;

@@ -2,6 +2,7 @@
 //! for readers without the script, the whole run to scroll through.
 
 use crate::html::section;
+use crate::legend::{Mark, activities, marks};
 use crate::markup::{Px, Text, put};
 use crate::report::Report;
 use crate::svg::{Timeline, View, overview, timeline};
@@ -46,39 +47,25 @@ pub(super) fn timeline_section(out: &mut String, report: &Report) {
 }
 
 fn legend(out: &mut String, report: &Report) {
-    let mut activities: Vec<(String, &str)> = Vec::new();
-    // An activity that never occurs needs no key.
-    let done = |index: usize| report.tasks.iter().any(|task| task.shares.get(index).is_some_and(|ticks| *ticks > 0));
-    for (_, kind) in report.activities.iter().enumerate().filter(|(index, _)| done(*index)) {
-        let outline = if kind.tone == Tone::Idle { " outlined" } else { "" };
-        activities.push((format!("{}{outline}", kind.tone.name()), &kind.label));
-    }
-    let mut marks: Vec<(String, &str)> = Vec::new();
-    if report.tasks.iter().any(|task| !task.releases.is_empty()) {
-        let early = report.tasks.iter().any(|task| task.deadline.is_some() && task.deadline != task.period);
-        let begins = if early { "a period begins" } else { "a period begins, the deadline of the one before" };
-        marks.push(("bar".to_owned(), begins));
-    }
-    if report.tasks.iter().any(|task| !task.misses.is_empty()) {
-        marks.push(("late".to_owned(), "completed after its deadline"));
-    }
-    let way = report.flow.as_ref().map(|flow| format!("way of a {}, dashed when overtaken", flow.noun.0));
-    if let Some(way) = &way {
-        marks.push(("thread".to_owned(), way));
-    }
-    if !report.buffers.is_empty() {
-        for (class, label) in [
-            ("writeplace", "array next to be written"),
-            ("readplace", "next to be read"),
-            ("bar strong", "arrays swapped"),
-        ] {
-            marks.push((class.to_owned(), label));
-        }
-    }
+    let outlined = |tone: Tone| if tone == Tone::Idle { " outlined" } else { "" };
+    let activities: Vec<(String, String)> = activities(report)
+        .map(|kind| (format!("{}{}", kind.tone.name(), outlined(kind.tone)), kind.label.clone()))
+        .collect();
+    let class = |mark: Mark| match mark {
+        Mark::Period => "bar",
+        Mark::Deadline => "bar dashed",
+        Mark::Late => "late",
+        Mark::Way => "thread",
+        Mark::WritePlace => "writeplace",
+        Mark::ReadPlace => "readplace",
+        Mark::Swap => "bar strong",
+    };
+    let marks: Vec<(String, String)> =
+        marks(report).into_iter().map(|(mark, words)| (class(mark).to_owned(), words)).collect();
     for list in [activities, marks].into_iter().filter(|list| !list.is_empty()) {
         out.push_str("<ul class=\"legend\">\n");
         for (class, label) in list {
-            put!(out, "<li><i class=\"{class}\"></i>{}</li>\n", Text(label));
+            put!(out, "<li><i class=\"{class}\"></i>{}</li>\n", Text(&label));
         }
         out.push_str("</ul>\n");
     }

@@ -70,7 +70,7 @@ fn titled(out: &mut String, strip: &Strip, spans: &[Span], view: &View, lane: &s
 }
 
 fn merged(out: &mut String, strip: &Strip, spans: &[Span], view: &View) {
-    for tone in Tone::ALL {
+    for tone in Tone::ALL.into_iter().chain([Tone::Undef]) {
         let mut path = String::new();
         for (span, _) in drawn(strip, spans).filter(|(_, found)| *found == tone) {
             let (x, y, width, height) = span_box(strip, span, view);
@@ -106,7 +106,8 @@ fn words(out: &mut String, strip: &Strip, spans: &[Span], view: &View) {
     for (span, tone) in drawn(strip, spans) {
         let label = &strip.track.kind(span).label;
         let (x, _, width, _) = span_box(strip, span, view);
-        if width >= text_width(label, WORDS) + 10.0 {
+        // Its box is too low for words.
+        if tone != Tone::Undef && width >= text_width(label, WORDS) + 10.0 {
             let y = strip.y + strip.height / 2.0 + 3.6;
             put!(
                 out,

@@ -81,11 +81,19 @@ fn labels(out: &mut String, lane: &Lane, view: &View) {
     let room = view.left - 12.0 - if lane.height > 40.0 { 30.0 } else { 0.0 };
     let middle = lane.middle().min(lane.y + 17.0);
     let (name, caption) = (fitted(&lane.name, 13.0, room), fitted(&lane.caption, 11.0, room));
+    let is_cut = name != lane.name || caption != lane.caption;
+    if is_cut {
+        let whole = format!("{} {}", lane.name, lane.caption);
+        put!(out, "<g><title>{}</title>", Text(whole.trim_end()));
+    }
     if lane.caption.is_empty() {
         put!(out, "<text class=\"name\" x=\"0\" y=\"{}\">{}</text>\n", Px(middle + 4.0), Text(name));
     } else {
         put!(out, "<text class=\"name\" x=\"0\" y=\"{}\">{}</text>", Px(middle - 1.5), Text(name));
         put!(out, "<text class=\"caption\" x=\"0\" y=\"{}\">{}</text>\n", Px(middle + 11.5), Text(caption));
+    }
+    if is_cut {
+        out.push_str("</g>\n");
     }
 }
 
@@ -98,6 +106,13 @@ fn draw_lane(out: &mut String, report: &Report, lane: &Lane, view: &View, option
         let middle = Px(lane.middle());
         put!(out, "<path class=\"base\" d=\"M{} {middle}H{}\"/>\n", Px(view.left), Px(view.right()));
         put!(out, "<path class=\"due\" d=\"{lines}\"/>\n");
+    }
+    let mut ends = String::new();
+    for tick in view.visible(&lane.deadlines(), LINES_APART) {
+        put!(ends, "M{} {}V{}", Px(view.x(*tick)), Px(lane.y - 2.0), Px(lane.y + lane.height + 2.0));
+    }
+    if !ends.is_empty() {
+        put!(out, "<path class=\"deadline\" d=\"{ends}\"/>\n");
     }
     let told = options.titles.then_some((lane.name.as_str(), report.time));
     for plan in &lane.strips {

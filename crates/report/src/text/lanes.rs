@@ -132,12 +132,12 @@ fn code(tone: Tone) -> &'static str {
         Tone::Hold => "33",
         Tone::Wait => "91",
         Tone::Message => "35",
-        Tone::Idle | Tone::Other => "37",
+        Tone::Idle | Tone::Other | Tone::Undef => "37",
     }
 }
 
 fn key(report: &Report) -> String {
-    let seen = report.activities.iter().filter(|kind| !matches!(kind.tone, Tone::Idle | Tone::Wait));
+    let seen = report.activities.iter().filter(|kind| !matches!(kind.tone, Tone::Idle | Tone::Wait | Tone::Undef));
     let keys: Vec<String> =
         seen.map(|kind| format!("\u{1b}[{}m\u{2588}\u{1b}[0m {}", code(kind.tone), kind.label)).collect();
     keys.join(", ")
