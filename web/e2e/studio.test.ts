@@ -225,6 +225,27 @@ test('a model is built, runs, lights states, shows guards, steps back and become
   await page.locator('.verdict', { hasText: 'passed' }).waitFor({ timeout: 20_000 })
 })
 
+test('the state that a run is in is brought into view', async () => {
+  // So far apart that no view shows both.
+  writeFileSync(path('Lamp.chart'), `${LAMP}\nlayout lamp\n\toff at 0, 0\n\ton at 0, 9000\nendlayout\n`)
+  await open('Lamp.chart')
+  await page.locator('.react-flow__node').first().waitFor()
+  const inView = async (id: string): Promise<boolean> => {
+    const [box, canvas] = [await shape(page, id).boundingBox(), await page.locator('.react-flow').boundingBox()]
+    if (!box || !canvas) return false
+    const y = box.y + box.height / 2
+    return y > canvas.y && y < canvas.y + canvas.height
+  }
+  await page.keyboard.press('F5')
+  const build = page.getByRole('button', { name: 'Build the model and run' })
+  if (!file('Lamp.asm')) await build.click()
+  await until(() => inView('off'), 'the state with which it begins')
+  await page.keyboard.press('F10')
+  await page.locator('.offers button', { hasText: 'true' }).click()
+  await until(() => inView('on'), 'the next state')
+  expect(await inView('off')).toBe(false)
+})
+
 test('a run pauses at a breakpoint', async () => {
   await lamp()
   await shape(page, 'on').click()

@@ -14,7 +14,7 @@ import { NOTHING } from '../diagram/pick'
 import type { Drawing, Line, Shape as ShapeKind } from '../diagram/protocol'
 import { words } from '../words'
 import { CanvasBar } from './CanvasBar'
-import { useBeyond, useDetail, useFit, useKeptWhole } from './fit'
+import { useBeyond, useDetail, useFit, useKeptWhole, useLitInView } from './fit'
 import type { Chart } from './chart'
 import { type Dropped, useConnecting } from './connect'
 import { Icon } from './icons'
@@ -112,6 +112,7 @@ function Shown({ studio, chart, drawing }: { studio: Studio; chart: Chart; drawi
   const fit = useFit(chart)
   const beyond = useBeyond(drawing)
   useKeptWhole(beyond, fit)
+  useLitInView(drawing, run.lit)
   const detail = useDetail()
   const { drawn, begin, grip } = useConnecting(studio, chart, toFlow, setDrop)
   const tool = useTool(studio, chart, drawing, toFlow)

@@ -27,6 +27,29 @@ export function useFit(chart: Chart): (duration?: number) => void {
   )
 }
 
+// When another shape is lit, or the canvas gets another size, and no lit shape is in view, the first one is brought there. Who moves
+// the canvas away from it is left alone until then.
+export function useLitInView(drawing: Drawing, lit: ReadonlyMap<string, unknown>): void {
+  const flow = useReactFlow()
+  const store = useStoreApi()
+  const size = useStore((state) => state.width * 100_000 + state.height)
+  const shown = [...lit.keys()].join(' ')
+  useEffect(() => {
+    const { width, height, transform } = store.getState()
+    const [left, top, zoom] = transform
+    const middle = (box: Drawing['picture']['boxes'][number]): [number, number] => [box.x + box.width / 2, box.y + box.height / 2]
+    const boxes = drawing.picture.boxes.filter((box) => lit.has(box.id) || box.details.some(({ id }) => id !== null && lit.has(id)))
+    const inView = boxes.some((box) => {
+      const [x, y] = middle(box)
+      const [at, down] = [x * zoom + left, y * zoom + top]
+      return at > parseInt(ROOM.left) && at < width - parseInt(ROOM.right) && down > parseInt(ROOM.top) && down < height - parseInt(ROOM.bottom)
+    })
+    const first = boxes[0]
+    if (width > 0 && first && !inView) void flow.setCenter(...middle(first), { zoom, duration: 180 })
+    // What is lit is told by `shown`; the same is a new map after each step.
+  }, [drawing, flow, shown, size, store])
+}
+
 // Whether some of a drawing lies outside of what is shown: then an overview helps.
 export function useBeyond(drawing: Drawing): boolean {
   return useStore(({ transform: [x, y, zoom], width, height }) =>
