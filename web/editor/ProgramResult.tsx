@@ -41,6 +41,8 @@ export function ProgramResult({ job }: { job: Job }): ReactNode {
   const stage = stageOf(job)
   const verdict = job.running || job.code === null ? null : ofType<Conformance>(job, 'conformance')
   const tone = verdict?.verdict === 'conforms' ? 'good' : verdict?.verdict === 'parts' ? 'bad' : 'unknown'
+  // What a run that conforms has all the same, line by line, is not as good as its verdict: it stands below, in no colour.
+  const [said, ...beside] = verdict?.verdict === 'conforms' ? verdict.words.split('\n') : [verdict?.words]
   const icon = verdict?.verdict === 'conforms' ? 'check' : verdict?.verdict === 'parts' ? 'cross' : 'question'
   return (
     <section className="program" aria-label={words.jobs.program}>
@@ -55,9 +57,10 @@ export function ProgramResult({ job }: { job: Job }): ReactNode {
       {verdict && (
         <p className={`outcome ${tone} program-verdict`} role="status">
           <Icon name={icon} size={14} />
-          <span>{verdict.words}</span>
+          <span>{said}</span>
         </p>
       )}
+      {beside.length > 0 && <p className="program-beside">{beside.join('\n')}</p>}
     </section>
   )
 }
