@@ -20,6 +20,16 @@ pub fn text(path: impl AsRef<Path>) -> String {
     std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
 }
 
+/// The text of a file; none if it is not UTF-8, as some that are there to be refused.
+///
+/// # Panics
+/// It cannot be read.
+pub fn text_if_utf8(path: impl AsRef<Path>) -> Option<String> {
+    let path = root().join(path);
+    let bytes = std::fs::read(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+    String::from_utf8(bytes).ok()
+}
+
 /// All files below a folder, at any depth, whose names have one of these endings (`asm`, not `.asm`), in order.
 ///
 /// # Panics

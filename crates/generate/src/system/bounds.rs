@@ -2,6 +2,7 @@
 //!
 //! In: a system without errors. Out: the parts `.bounds` and `.ways` of the plan; nothing if the chart bounds nothing. What is counted is
 //! in cpp/include/groundstate/bounds.hpp.
+//! SYNC(bounds): crates/conform/src/bounds.rs reads the words in which a bound is stated.
 
 use std::fmt::Write;
 
