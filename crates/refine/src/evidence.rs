@@ -9,6 +9,7 @@ use explore::Told;
 use machine::{Location, Show, Value};
 use rustc_hash::FxHashMap;
 
+use crate::behind::Broken;
 use crate::game::{Lost, Solution};
 use crate::product::{Answers, Deed, Node, NodeId, PairId, Product};
 use crate::side::{Move, StateId};
@@ -310,6 +311,21 @@ fn unmatched(product: &mut Product<'_>, end: &Answers) -> Ended {
         inputs.push((shown, values.join(" or ")));
     }
     Ended::Unmatched { inputs, tried, faults }
+}
+
+/// The run of the concrete machine to a step that it cannot make, whatever the abstract machine answers.
+pub(crate) fn breaks(product: &mut Product<'_>, broken: &Broken) -> Refutation {
+    let (_, state, start) = product.begun[broken.begun].clone();
+    let mut telling = Telling { product, runs: Default::default(), segments: Vec::new() };
+    telling.begin(CONCRETE, state, start);
+    if let Some((_, state, start)) = telling.product.initial.first().cloned() {
+        telling.begin(ABSTRACT, state, start);
+    }
+    for (from, made) in &broken.steps {
+        telling.step(CONCRETE, *from, made);
+    }
+    let Telling { runs, segments, .. } = telling;
+    Refutation { runs, segments, ended: Ended::Fault }
 }
 
 /// Why no initial states correspond.

@@ -5,6 +5,7 @@
 //! G. Schellhorn, *Verification of ASM refinements using generalized forward simulation* (2001). Decided by a game on pairs of states,
 //! docs/adr/0023. It must not know files or how results are told.
 
+mod behind;
 mod bounded;
 mod build;
 mod computed;

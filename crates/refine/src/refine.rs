@@ -8,6 +8,7 @@ use explore::{Unbounded, Widening};
 use machine::{Cause, Fault};
 use program::PropertyKind;
 
+use crate::behind::{self, is_unclear};
 use crate::bounded::of_proof;
 use crate::computed::Computed;
 use crate::coupling::Coupling;
@@ -170,6 +171,15 @@ fn attempt(
         }
     }
     let progress = progress_of(&product, product.pairs.len() - next);
+    let mut broken = None;
+    if whys.0.is_empty() && !is_lost && is_unclear(&product) {
+        match behind::broken(&mut product) {
+            Ok(found) => broken = found,
+            Err(Stopped::Narrow(side, widening)) => return Ok(Err((side, widening))),
+            // What was not looked at is not told.
+            Err(Stopped::Many | Stopped::Interrupted) => {}
+        }
+    }
     for side in &mut product.sides {
         side.ignore_interrupts();
     }
@@ -192,6 +202,7 @@ fn attempt(
         Says::Nothing(vacuous @ (Vacuous::NoStart(_) | Vacuous::NoInitialPair(_))) => Verdict::Vacuous(vacuous),
         // What cannot be answered is a fault, whatever else the coupling says.
         _ if !hopeful.won => Verdict::DoesNot(Box::new(evidence::refutation(&mut product, &hopeful))),
+        _ if let Some(broken) = &broken => Verdict::DoesNot(Box::new(evidence::breaks(&mut product, broken))),
         // With other values of inputs there may be states that it tells apart.
         Says::Nothing(_) if !bounded.is_empty() => Verdict::Unknown(bounded),
         Says::Nothing(vacuous) => Verdict::Vacuous(vacuous),

@@ -242,15 +242,18 @@ impl Side {
     pub fn initial(&mut self, inputs: &mut Inputs, bridge: &Bridge) -> Vec<(Label, StateId, Start)> {
         let starts: Vec<(Box<[u64]>, Start)> =
             self.explorer.initial().iter().map(|(state, start)| (state.into(), start)).collect();
+        // With other values there may be states that the assumptions admit: those that were left out count, too.
+        if !self.limited.is_empty() {
+            let asked = self.explorer.asked_by_starts().to_vec();
+            self.look_at(None, &asked);
+        }
         let mut found = Vec::new();
         let mut seen = FxHashSet::default();
         for (state, start) in starts {
-            let told = match self.shared.is_empty() && self.limited.is_empty() {
+            let told = match self.shared.is_empty() {
                 true => Told::default(),
                 false => self.explorer.told_of_start(start),
             };
-            // With other values there may be states that the assumptions admit.
-            self.look_at(None, &told.inputs);
             if !self.is_assumed(&state) {
                 continue;
             }

@@ -10,3 +10,4 @@ mod preserved;
 mod small;
 mod spec;
 mod stuck;
+mod unclear;

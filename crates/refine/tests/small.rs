@@ -217,7 +217,7 @@ fn what_says_nothing_of_some_values_hides_no_fault() {
 }
 
 /// The verdict where inputs have these values, by side; all of their domains where nothing is said.
-fn bounded(programs: [&Arc<Program>; 2], text: &str, bounds: [&[(&str, &[machine::Value])]; 2]) -> Verdict {
+pub fn bounded(programs: [&Arc<Program>; 2], text: &str, bounds: [&[(&str, &[machine::Value])]; 2]) -> Verdict {
     let file = Some(SourceFile::new("c.refine", text));
     let coupling = Coupling::new(programs, file, &machine::Limits::default()).expect("no faults");
     let mut options = Options::default();

@@ -226,6 +226,11 @@ impl Explorer {
         &self.starts
     }
 
+    /// Each input that a start asked for, those included that an assumption leaves out; with some value that it had.
+    pub fn asked_by_starts(&self) -> &[(Location, Value)] {
+        &self.starts.seen.asked
+    }
+
     /// The same, for another explorer: see [`Explorer::like`].
     pub fn starts(&self) -> Arc<Starts> {
         Arc::clone(&self.starts)
