@@ -477,7 +477,7 @@ module.exports = grammar({
         "exit",
         seq(choice($._identifier, ...MACHINE_WORDS.map((word) => alias(word, $.identifier))), optional(choice("yes", "no"))),
       ),
-    path_stop: ($) => choice("enter", "exit", seq($._identifier, optional(choice("yes", "no")))),
+    path_stop: ($) => choice("enter", seq("exit", optional(choice("yes", "no"))), seq($._identifier, optional(choice("yes", "no")))),
     _term_link: ($) => seq("{", $._term, "}"),
     _rule_link: ($) => seq("{", $._rule, "}"),
     _name_link: ($) => seq("{", $.name, "}"),

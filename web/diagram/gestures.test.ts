@@ -4,7 +4,7 @@ import { expect, test } from 'vitest'
 
 import { align, distribute, snappedCorner } from './arrange'
 import { copied, pasted } from './clipboard'
-import { freeBranch, kept, mayConnect, move, redirect, remove } from './gestures'
+import { endOf, freeBranch, kept, mayConnect, move, redirect, remove } from './gestures'
 import { box, drawing, line } from './testing'
 
 const shapes = () => [
@@ -49,6 +49,19 @@ test('an end of an arrow moves', () => {
   expect(redirect(machine, arrow!, 'from', off!, null)).toMatchObject({ new: { from: 'off', branch: null, to: 'on' } })
   expect(redirect(machine, arrow!, 'from', pressed!, 'yes')).toBeNull()
   expect(freeBranch(machine, pressed!)).toBe('no')
+})
+
+test('a pattern that answers is left with yes or no, and its block has two exits', () => {
+  const pattern = drawing([...shapes(), box('exit yes 2', 'exit', 90, 400, 28, 14)], [line(1, 5, 'yes')], 'pattern')
+  expect(pattern.picture.boxes.slice(4).map(endOf)).toEqual(['exit', 'exit yes'])
+  expect(mayConnect(pattern, { from: 'pressed', branch: 'yes', to: 'exit yes' })).toBe('there-already')
+  expect(mayConnect(pattern, { from: 'pressed', branch: 'yes', to: 'exit no' })).toBeNull()
+  expect(mayConnect(drawing(shapes()), { from: 'off', branch: null, to: 'exit no' })).toBe('no-exit-here')
+  const block = { ...box('look', 'block', 0, 0, 80, 40), answers: true }
+  const machine = drawing([block, ...shapes()], [line(0, 1, 'yes')])
+  expect(freeBranch(machine, block)).toBe('no')
+  expect(freeBranch(machine, { ...block, answers: false })).toBeNull()
+  expect(redirect(machine, line(2, 3, 'no'), 'from', block, null)).toMatchObject({ new: { from: 'look', branch: 'no' } })
 })
 
 test('shapes go with their arrows, floating ends with theirs', () => {

@@ -80,8 +80,13 @@ const SHAPES: Record<Figure, Shape | null> = {
 
 export const shapeOf = (box: Box): Shape | null => SHAPES[box.figure]
 
-// The name that the contract has for an end: `exit 1` is `exit`.
-export const endOf = (box: Box): string => (box.figure === 'exit' ? 'exit' : box.id)
+// The name that the contract has for an end: `exit 1` is `exit`, `exit yes 1` is `exit yes`.
+export const endOf = (box: Box): string => (box.figure === 'exit' ? box.id.replace(/ \d+$/, '') : box.id)
+
+const isExit = (end: string): boolean => ['exit', 'exit yes', 'exit no'].includes(end)
+
+// Whether the arrows out of a shape say yes or no: it is a guard, or the block of a pattern that answers.
+export const forks = (box: Box): boolean => box.figure === 'hexagon' || box.answers === true
 
 export const arrowOf = (drawing: Drawing, line: Line): Arrow | null => {
   const from = drawing.picture.boxes[line.from]
@@ -94,8 +99,8 @@ export type Refusal = 'into-enter' | 'out-of-exit' | 'there-already' | 'no-exit-
 // Whether an arrow may be drawn at all; what is more subtle is the server's to refuse.
 export function mayConnect(drawing: Drawing, arrow: Arrow): Refusal | null {
   if (arrow.to === 'enter') return 'into-enter'
-  if (arrow.from === 'exit') return 'out-of-exit'
-  if (arrow.to === 'exit' && drawing.kind !== 'pattern') return 'no-exit-here'
+  if (isExit(arrow.from)) return 'out-of-exit'
+  if (isExit(arrow.to) && drawing.kind !== 'pattern') return 'no-exit-here'
   if (arrow.from === arrow.to && drawing.kind === 'system') return 'to-itself'
   const known = drawing.picture.lines.some((line) => {
     const there = arrowOf(drawing, line)
@@ -112,7 +117,7 @@ export function redirect(drawing: Drawing, line: Line, end: 'from' | 'to', box: 
   const fresh: Arrow =
     end === 'to'
       ? { ...old, to: endOf(box) }
-      : { ...old, from: endOf(box), branch: box.figure === 'hexagon' ? (branch ?? old.branch ?? 'yes') : null }
+      : { ...old, from: endOf(box), branch: forks(box) ? (branch ?? old.branch ?? 'yes') : null }
   if (fresh.from === old.from && fresh.to === old.to && fresh.branch === old.branch) return null
   return { kind: 'redirect', ...old, new: fresh }
 }
@@ -140,9 +145,9 @@ export function remove(drawing: Drawing, selection: Selection): Operation[] {
   return out
 }
 
-// The branch that a new arrow from a shape takes: a guard's first free exit.
+// The branch that a new arrow from a shape takes: the first free exit.
 export function freeBranch(drawing: Drawing, box: Box): Branch {
-  if (box.figure !== 'hexagon') return null
+  if (!forks(box)) return null
   const index = drawing.picture.boxes.indexOf(box)
   const taken = drawing.picture.lines.filter((line) => line.from === index).map((line) => line.branch)
   return taken.includes('yes') && !taken.includes('no') ? 'no' : 'yes'

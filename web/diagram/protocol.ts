@@ -104,6 +104,8 @@ export interface Box {
   link: string | null
   refine: null | { by: string | null }
   of: string | null
+  // It is the block of a pattern that answers yes or no.
+  answers?: boolean
   // The composite state that it stands in.
   within?: string | null
   // Of a composite state.

@@ -340,7 +340,7 @@ function Shown({ studio, chart, drawing }: { studio: Studio; chart: Chart; drawi
             items={growItems(drawing, (shape, of) => {
               const at: [number, number] = [Math.round(drop.at[0] / GRID) * GRID, Math.round(drop.at[1] / GRID) * GRID]
               void chart.grow({ kind: 'add', shape, at, ...(of === undefined ? {} : { of }) }, drop.arrow)
-            }, () => void chart.operate({ kind: 'connect', ...drop.arrow, to: 'exit' }, { select: false }), tool.patterns)}
+            }, (to) => void chart.operate({ kind: 'connect', ...drop.arrow, to }, { select: false }), tool.patterns)}
           />
         )}
         {context && <Menu at={context} label={words.canvas.context} close={() => setContext(null)} items={tool.contextItems(() => setEditing(selection.boxes[0] ?? null), open)} />}
@@ -349,14 +349,16 @@ function Shown({ studio, chart, drawing }: { studio: Studio; chart: Chart; drawi
   )
 }
 
-function growItems(drawing: Drawing, add: (shape: ShapeKind, of?: string) => void, exit: () => void, patterns: string[]) {
+function growItems(drawing: Drawing, add: (shape: ShapeKind, of?: string) => void, exit: (to: string) => void, patterns: string[]) {
   if (drawing.kind === 'system') return [{ name: words.shapes.component, icon: <Icon name="component" />, act: () => add('component') }]
   return [
     { name: words.shapes.state, icon: <Icon name="state" />, key: 'S', act: () => add('state') },
     { name: words.shapes.guard, icon: <Icon name="guard" />, key: 'G', act: () => add('guard') },
     { name: words.shapes.action, icon: <Icon name="action" />, key: 'A', act: () => add('action') },
     ...patterns.slice(0, 6).map((of) => ({ name: words.palette.instanceOf(of), icon: <Icon name="instance" />, act: () => add('instance', of) })),
-    ...(drawing.kind === 'pattern' ? [null, { name: words.shapes.exit, icon: <Icon name="flag" />, act: exit }] : []),
+    ...(drawing.kind === 'pattern'
+      ? [null, ...(['exit', 'exit yes', 'exit no'] as const).map((to) => ({ name: `${words.shapes.exit}${to.slice(4)}`, icon: <Icon name="flag" />, act: () => exit(to) }))]
+      : []),
   ]
 }
 

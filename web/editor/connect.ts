@@ -56,7 +56,7 @@ export function useConnecting(
   const arrowTo = (drawing: Drawing, what: Held, box: Box): Arrow | null => {
     if (what.kind === 'new') return { from: endOf(what.from), branch: what.port.branch, to: endOf(box) }
     const line = drawing.picture.lines[what.index]
-    const branch = box.figure === 'hexagon' ? freeBranch(drawing, box) : null
+    const branch = freeBranch(drawing, box)
     const operation = line && redirect(drawing, line, what.end, box, branch)
     return operation?.kind === 'redirect' ? operation.new : null
   }
@@ -95,7 +95,7 @@ export function useConnecting(
       }
       const line = drawing.picture.lines[what.index]
       if (!line || !over) return
-      const operation = redirect(drawing, line, what.end, over, over.figure === 'hexagon' ? freeBranch(drawing, over) : null)
+      const operation = redirect(drawing, line, what.end, over, freeBranch(drawing, over))
       if (operation?.kind !== 'redirect') return
       const refusal = mayConnect(drawing, operation.new)
       if (refusal) return studio.tell(words.refused[refusal], 'refused')

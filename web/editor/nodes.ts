@@ -6,6 +6,7 @@
 import { useRef } from 'react'
 
 import { type Point, type Side, floats, guardSides } from '../diagram/geometry'
+import { forks } from '../diagram/gestures'
 import { type Fault, faultsOn, spoken } from '../diagram/pick'
 import type { Box, Drawing, Label } from '../diagram/protocol'
 import { words } from '../words'
@@ -31,7 +32,7 @@ function portsOf(drawing: Drawing, index: number): Port[] {
   const box = drawing.picture.boxes[index]
   if (!box || box.figure === 'exit') return []
   if (box.figure === 'enter') return [{ side: 'bottom', branch: null }]
-  if (box.figure !== 'hexagon') return SIDES.map((side) => ({ side, branch: null }))
+  if (!forks(box)) return SIDES.map((side) => ({ side, branch: null }))
   const { yes, no } = guardSides(index, drawing.picture.boxes, drawing.picture.lines)
   return [
     { side: yes, branch: 'yes' },

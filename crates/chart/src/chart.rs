@@ -1,7 +1,7 @@
 //! The meaning of a chart: machines with their shapes and arrows, names resolved; separately, where shapes lie.
 //!
 //! INVARIANT: in a chart without errors, every [`ShapeId`] is an index into its machine's shapes; an arrow has a branch
-//! if and only if it leaves a guard; every path from a control state leads over guards and actions to a control state,
+//! if and only if it leaves a guard, or the block of a pattern that answers; every path from a control state leads over guards and actions to a control state,
 //! a pattern instance or an exit, and never in a circle without one of these.
 
 use std::collections::BTreeMap;
@@ -25,6 +25,8 @@ pub struct Chart {
     pub charts: Vec<String>,
     /// The patterns of these charts.
     pub patterns: Vec<Machine>,
+    /// The names of patterns that stand in charts which these import: they are not known here.
+    pub beyond: Vec<String>,
     /// Machines and patterns in the order of the file.
     pub machines: Vec<Machine>,
     /// The system, if any.
@@ -82,7 +84,7 @@ pub struct Machine {
     /// Whether it has a control state, or a block that takes steps, so that entering and leaving it takes several
     /// steps.
     pub steps: bool,
-    /// The same machine without composite states, if it has any. Its first shapes are those of this one.
+    /// The same machine without composite states and without answers, if it has any of these. Its first shapes are those of this one.
     pub flattened: Option<Arc<Machine>>,
     /// Where it is declared: its name.
     pub span: Span,
@@ -134,7 +136,7 @@ impl Machine {
         std::iter::successors(self.shape(id).inside, |outer| self.shape(*outer).inside).collect()
     }
 
-    /// What the machine means: itself, or the same without composite states.
+    /// What the machine means: itself, or the same without composite states and without answers.
     pub fn flat(&self) -> &Machine {
         self.flattened.as_deref().unwrap_or(self)
     }
@@ -149,6 +151,11 @@ impl Machine {
         let has = |composite: &Composite| composite.entry.contains(&id) || composite.exit.contains(&id);
         let composites = self.shapes.iter().filter_map(Shape::composite);
         self.aborts.contains(&id) || composites.into_iter().any(has)
+    }
+
+    /// Whether it is left with an answer, yes or no: a block of it has two exits, like a guard.
+    pub fn answers(&self) -> bool {
+        self.arrows.iter().any(|arrow| arrow.answer.is_some())
     }
 
     /// Whether entering and leaving it takes several steps, since it has a control state or a block that takes steps.
@@ -294,10 +301,12 @@ pub enum End {
 pub struct Arrow {
     /// Where it starts.
     pub from: End,
-    /// The exit of the guard that it leaves.
+    /// The exit of the guard that it leaves, or of the block of a pattern that answers.
     pub branch: Option<bool>,
     /// Where it ends.
     pub to: End,
+    /// The answer with which it leaves a pattern that answers.
+    pub answer: Option<bool>,
     /// The place of its end in a path.
     pub span: Span,
 }

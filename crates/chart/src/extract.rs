@@ -476,7 +476,7 @@ impl Graph<'_> {
         let span = machine.span;
         let mut lead = |from: End, branch: Option<bool>, to: Option<usize>| {
             if let Some(to) = to {
-                machine.arrows.push(Arrow { from, branch, to: ends[&to], span });
+                machine.arrows.push(Arrow { from, branch, to: ends[&to], answer: None, span });
             }
         };
         enter.iter().for_each(|node| lead(End::Enter, None, Some(*node)));

@@ -1,4 +1,4 @@
-//! The same machine without composite states (spec/charts.md, "Composite states").
+//! The same machine without composite states (spec/charts.md, "Composite states"), and without answers (`answer.rs`).
 //!
 //! In: a machine without errors, and its chart, in which it is known which machines take steps. Out: a machine whose control
 //! states are the innermost ones. Its first shapes are those of the given machine; guards and actions that stand on the paths of
@@ -13,6 +13,7 @@ use std::collections::BTreeMap;
 
 use syntax::Span;
 
+use crate::answer::without_answers;
 use crate::build::{call, control_location, inner_control, instance_call, memory_location, of_instance, state_value};
 use crate::chart::{Arrow, Chart, Composite, End, Machine, Shape, ShapeId, ShapeKind};
 use crate::flow::{is_beside, is_block};
@@ -27,11 +28,13 @@ const MAX_DEPTH: usize = 400;
 /// The flat machine would have too many shapes, or paths too long.
 pub(crate) struct TooLarge;
 
-/// The machine without composite states; `None` if it has none.
+/// The machine without composite states and without answers; `None` if it has none of them.
 pub(crate) fn flattened(chart: &Chart, machine: &Machine) -> Result<Option<Machine>, TooLarge> {
+    let plain = without_answers(chart, machine);
     if !machine.shapes.iter().any(|shape| shape.composite().is_some()) {
-        return Ok(None);
+        return Ok(plain);
     }
+    let machine = plain.as_ref().unwrap_or(machine);
     let mut flat = Machine { arrows: Vec::new(), sequences: Vec::new(), flattened: None, ..machine.clone() };
     flat.shapes.iter_mut().for_each(|shape| shape.inside = None);
     let is_used = vec![false; flat.shapes.len()];
@@ -399,7 +402,7 @@ impl Flattener<'_> {
     }
 
     fn arrow(&mut self, from: End, branch: Option<bool>, to: End, span: Span) {
-        self.flat.arrows.push(Arrow { from, branch, to, span });
+        self.flat.arrows.push(Arrow { from, branch, to, answer: None, span });
     }
 
     /// What is in sequence stays so on the paths of the present state.

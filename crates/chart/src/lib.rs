@@ -9,6 +9,7 @@
 pub mod build;
 pub mod import;
 
+mod answer;
 mod begin;
 mod chart;
 mod check;
@@ -24,6 +25,7 @@ mod flat;
 mod flow;
 mod lights;
 mod link;
+mod note;
 mod obligation;
 mod read;
 mod subject;
@@ -50,7 +52,8 @@ pub use fault::IDS as FAULT_IDS;
 pub use flow::{Origin, Target, Transition, transitions};
 pub use lights::{Light, Lights};
 pub use link::Link;
-pub use obligation::{Obligation, Observed, obligations};
+pub use note::{Note, Texts};
+pub use obligation::{Answered, Block, Obligation, Observed, obligations};
 pub use read::{Loaded, load, load_beside, read};
 pub use subject::{NoPictures, NotDrawn, Part, Pictures, Subject, subjects};
 pub use write::write;

@@ -99,6 +99,11 @@ fn paths(out: &mut String, machine: &Machine) {
         End::Exit => "exit",
         End::Shape(id) => machine.shape(id).name.as_str(),
     };
+    let end = |arrow: &Arrow| match arrow.answer {
+        Some(true) => format!("{} yes", name(arrow.to)),
+        Some(false) => format!("{} no", name(arrow.to)),
+        None => name(arrow.to).to_string(),
+    };
     let stop = |arrow: &Arrow| match arrow.branch {
         Some(true) => format!("{} yes", name(arrow.from)),
         Some(false) => format!("{} no", name(arrow.from)),
@@ -126,7 +131,7 @@ fn paths(out: &mut String, machine: &Machine) {
                 match next.filter(|next| !done[*next] && !is_state(arrow.to)) {
                     Some(next) => index = next,
                     None => {
-                        let _ = writeln!(out, "{}", name(arrow.to));
+                        let _ = writeln!(out, "{}", end(arrow));
                         break;
                     }
                 }

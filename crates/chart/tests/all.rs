@@ -2,6 +2,7 @@
 //! them run.
 
 mod agreement;
+mod answers;
 mod exchange;
 mod extracted;
 mod machines;

@@ -175,13 +175,19 @@ fn children(scene: &Scene, around: Option<usize>, turned: &BTreeSet<usize>) -> V
                 "elk.nodeSize.minimum": format!("({},{})", node.width, node.height),
             },
         }),
-        _ => shape(index, node, scene.free, turned.contains(&index)),
+        _ => shape(index, node, forks(scene, index), scene.free, turned.contains(&index)),
     })
     .collect()
 }
 
+/// Whether the arrows out of a shape say yes or no: it is a guard, or the block of a pattern that answers.
+fn forks(scene: &Scene, index: usize) -> bool {
+    let answers = |edge: &Edge| edge.from == index && edge.branch.is_some();
+    scene.nodes[index].figure == Figure::Hexagon || scene.edges.iter().any(answers)
+}
+
 /// A shape with the places where arrows meet it.
-fn shape(index: usize, node: &Node, free: bool, turned: bool) -> Value {
+fn shape(index: usize, node: &Node, forks: bool, free: bool, turned: bool) -> Value {
     let (width, height) = (node.width, node.height);
     if free {
         return json!({ "id": index.to_string(), "width": width, "height": height });
@@ -200,7 +206,7 @@ fn shape(index: usize, node: &Node, free: bool, turned: bool) -> Value {
         })
     };
     let mut ports = vec![port("in", "NORTH", width / 2.0, 0.0, None)];
-    if node.figure == Figure::Hexagon {
+    if forks {
         ports.push(port("yes", "SOUTH", width / 2.0, height, Some(true)));
         let (side, x) = if turned { ("WEST", 0.0) } else { ("EAST", width) };
         ports.push(port("no", side, x, height / 2.0, Some(false)));
@@ -215,7 +221,7 @@ fn shape(index: usize, node: &Node, free: bool, turned: bool) -> Value {
             json!({ "text": link, "width": width, "height": height })
         })
         .collect();
-    let side = if node.figure == Figure::Hexagon && !turned { "H_LEFT" } else { "H_RIGHT" };
+    let side = if forks && !turned { "H_LEFT" } else { "H_RIGHT" };
     json!({
         "id": index.to_string(), "width": width, "height": height, "ports": ports, "labels": labels,
         "layoutOptions": {

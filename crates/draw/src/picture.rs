@@ -31,7 +31,7 @@ pub enum Figure {
 /// A shape with its place.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Placed {
-    /// The name in the chart; `enter`; or `exit` and a number.
+    /// The name in the chart; `enter`; or `exit`, an answer if it gives one, and a number.
     pub id: String,
     /// What it looks like.
     pub figure: Figure,

@@ -13,7 +13,7 @@ use crate::picture::{Detail, Figure};
 /// A shape to be placed.
 #[derive(Debug, Clone)]
 pub struct Node {
-    /// The name in the chart; `enter`; or `exit` and a number.
+    /// The name in the chart; `enter`; or `exit`, an answer if it gives one, and a number.
     pub id: String,
     pub figure: Figure,
     pub dashed: bool,
@@ -92,7 +92,7 @@ pub fn of_machine(chart: &Chart, machine: &Machine) -> Scene {
         let to = match arrow.to {
             End::Exit => {
                 let count = scene.nodes.iter().filter(|node| node.figure == Figure::Exit).count();
-                scene.nodes.push(point(format!("exit {}", count + 1), Figure::Exit));
+                scene.nodes.push(exit(count + 1, arrow.answer));
                 scene.nodes.len() - 1
             }
             end => match place(end) {
@@ -148,6 +148,17 @@ fn point(id: String, figure: Figure) -> Node {
         initial: false,
         inside: None,
     }
+}
+
+/// The end of a floating exit arrow, with the answer that it gives.
+fn exit(number: usize, answer: Option<bool>) -> Node {
+    let Some(answer) = answer else { return point(format!("exit {number}"), Figure::Exit) };
+    let word = if answer { "yes" } else { "no" };
+    let (width, height) = branch_size(answer);
+    // Even, so that the middle lies on a whole pixel.
+    let (width, height) = (2.0 * (width / 2.0).ceil() + 4.0, height);
+    let point = point(format!("exit {word} {number}"), Figure::Exit);
+    Node { lines: vec![word.to_string()], width, height, ..point }
 }
 
 /// What is done when a composite state is entered or left.

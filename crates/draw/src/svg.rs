@@ -74,6 +74,7 @@ fn element(picture: &Picture, description: &str, prefix: &str, class: &str, styl
         let labels: Vec<&Label> = picture.labels.iter().filter(|label| label.of == index).collect();
         let floating = matches!(shape.figure, Figure::Enter | Figure::Exit | Figure::Composite);
         if floating {
+            answer(&mut out, shape);
             continue;
         }
         let _ = writeln!(out, "<g data-shape=\"{}\">", Text(&shape.id));
@@ -87,6 +88,14 @@ fn element(picture: &Picture, description: &str, prefix: &str, class: &str, styl
     }
     out.push_str("</svg>\n");
     out
+}
+
+/// What stands at the end of an exit arrow that gives an answer.
+fn answer(out: &mut String, shape: &Placed) {
+    if let (Figure::Exit, [word]) = (shape.figure, &shape.lines[..]) {
+        let (x, y) = (shape.x + shape.width / 2.0, shape.y + shape.height - 3.5);
+        let _ = writeln!(out, "<text class=\"branch\" x=\"{}\" y=\"{}\">{}</text>", N(x), N(y), Text(word));
+    }
 }
 
 fn heading(out: &mut String, picture: &Picture) {

@@ -1,14 +1,13 @@
 //! What a chart owes to later models: for each dashed shape the question whether the machine that it is to be refined by refines it.
 //!
 //! In: a chart's text, its model, a [`Loader`]. Out: an [`Owed`] for each shape: both models and their coupling, ready for
-//! [`refine::refine`], or why there is no question yet. What the abstract model's rules write is observed. INVARIANT: nothing is said to
+//! [`refine::refine`], or why there is no question yet. What the abstract model's rules write is observed. An input that only a guard
+//! asked for which is replaced is what the machine in its place answers; one that something still asks for is the same in both. INVARIANT: nothing is said to
 //! be proved here, and nothing is kept: who asks runs the proof.
 
-use std::sync::Arc;
-
-use chart::{Chart, Obligation, Observed, obligations};
+use chart::{Answered, Block, Chart, Obligation, Observed, Texts, obligations};
 use model::{FunctionKind, Loader};
-use program::{Program, Rule, RuleId, Runs};
+use program::{Function, Program, Rule, RuleId, Runs, Term, TermId};
 use syntax::SourceFile;
 
 use crate::{Loaded, build_chart, has_errors, load};
@@ -31,6 +30,8 @@ pub struct OwedProof {
     pub coupling: SourceFile,
     /// The functions that are compared.
     pub observed: Vec<String>,
+    /// The machine in the place of the shape, if it is one block that takes steps.
+    pub block: Option<Block>,
 }
 
 /// What a chart owes. `model` is the model's file as it is.
@@ -57,59 +58,132 @@ fn proof(
     if given.program.main.is_none() {
         return Err("the model has no main rule, so it makes no steps".to_string());
     }
-    let replaced = build_chart(SourceFile::new(root.name.as_str(), text), &model.name, Some(&model.text), loader);
-    let Some(built) = replaced.built else {
-        let first =
-            replaced.faults.iter().flat_map(|(_, faults)| faults).find(|fault| has_errors(std::slice::from_ref(fault)));
-        let why = first.map_or_else(String::new, |fault| format!(": {}", fault.message));
-        return Err(format!("the chart with the machine in its place cannot be built{why}"));
+    let observed = Touched::by(&given.program).written(&given.program);
+    let texts = |chart: &str| Texts { chart: chart.to_string(), model: model.text.to_string() };
+    let in_place = "the machine in its place";
+    let (replaced, concrete) = built(root, &texts(&text), model, loader, in_place)?;
+    let answered = obligation.asks(chart).and_then(|name| answered(&name, &given.program, &concrete.program));
+    let note = obligation.note(&replaced, [&root.text, &model.text]);
+    let (given, concrete) = match &note {
+        None => (given, concrete),
+        Some(note) => {
+            let noted = (note.of_guard(&texts(&root.text)), note.of_block(&texts(&text)));
+            let (Some(one), Some(other)) = noted else { return Err("its exits are not found".to_string()) };
+            let (_, given) = built(root, &one, model, loader, "notes of what it says")?;
+            (given, built(root, &other, model, loader, in_place)?.1)
+        }
     };
-    let concrete = load(SourceFile::new(model.name.as_str(), built.text), loader)
-        .map_err(|_| "the model with the machine in its place has errors".to_string())?;
-    let observed = written(&given.program);
-    let coupling = obligation.coupling(&replaced.chart, &observed)?;
+    let coupling = obligation.coupling(&replaced, &observed, answered.as_ref(), note.as_ref())?;
     let coupling =
         SourceFile::new(format!("<{} by {}>", obligation.shape, obligation.by.as_deref().unwrap_or("")), coupling);
     let observed = observed.into_iter().map(|function| function.name).collect();
-    Ok(OwedProof { models: [given, concrete], coupling, observed })
+    let block = obligation.block(&replaced);
+    Ok(OwedProof { models: [given, concrete], coupling, observed, block })
 }
 
-/// The functions that the rules write which a program runs.
-fn written(program: &Arc<Program>) -> Vec<Observed> {
-    let mut found = vec![false; program.functions.len()];
-    let mut seen = vec![false; program.procedures.len()];
-    let mut open: Vec<RuleId> = Vec::new();
-    let mut procedures: Vec<_> = program.main.into_iter().collect();
-    procedures.extend(program.agents.iter().map(|agent| agent.procedure));
-    loop {
-        while let Some(procedure) = procedures.pop() {
-            if !std::mem::replace(&mut seen[procedure.0 as usize], true) {
-                open.push(program.procedure(procedure).body);
-            }
-        }
-        let Some(id) = open.pop() else { break };
-        if let Rule::Update { function, .. } | Rule::Return { function, .. } = program.rule(id) {
-            found[function.0 as usize] = true;
-        }
-        match program.rule(id).runs() {
-            Runs::Nothing => {}
-            Runs::Procedure(procedure) => procedures.push(procedure),
-            // Which rule it is depends on the state: all may be.
-            Runs::Value { .. } | Runs::Agent => {
-                procedures.extend((0..program.procedures.len() as u32).map(program::ProcedureId));
-            }
-        }
-        program.each_child_of_rule(id, &mut |child| open.push(child));
-    }
-    let is_state = |function: &program::Function| {
-        matches!(function.kind, FunctionKind::Controlled | FunctionKind::Out | FunctionKind::Shared)
-            && !function.library
+/// A chart and the model that is built from it; `with` says what is new in it.
+fn built(
+    root: &SourceFile,
+    texts: &Texts,
+    model: &SourceFile,
+    loader: &mut dyn Loader,
+    with: &str,
+) -> Result<(Chart, Loaded), String> {
+    let source = SourceFile::new(root.name.as_str(), texts.chart.as_str());
+    let found = build_chart(source, &model.name, Some(&texts.model), loader);
+    let Some(built) = found.built else {
+        let first =
+            found.faults.iter().flat_map(|(_, faults)| faults).find(|fault| has_errors(std::slice::from_ref(fault)));
+        let why = first.map_or_else(String::new, |fault| format!(": {}", fault.message));
+        return Err(format!("the chart with {with} cannot be built{why}"));
     };
-    let functions = program.functions.iter().zip(found).filter(|(function, found)| *found && is_state(function));
-    functions
-        .map(|(function, _)| Observed {
-            name: function.name.clone(),
-            parameters: function.parameters.iter().map(|domain| program.domain(*domain).name.clone()).collect(),
-        })
-        .collect()
+    let loaded = load(SourceFile::new(model.name.as_str(), built.text), loader);
+    Ok((found.chart, loaded.map_err(|_| format!("the model with {with} has errors"))?))
+}
+
+/// The input that a guard asks for, if nothing reads it in the concrete machine: there the answer stands for it. If something does, it is
+/// an input of both machines.
+fn answered(name: &str, given: &Program, concrete: &Program) -> Option<Answered> {
+    let inputs = |program: &Program| -> Vec<usize> {
+        let named = program.functions.iter().enumerate();
+        let is_input = |function: &Function| function.kind == FunctionKind::Monitored && function.name == name;
+        named.filter(|(_, function)| is_input(function)).map(|(index, _)| index).collect()
+    };
+    let all = inputs(given);
+    let read = Touched::by(concrete).read;
+    if all.is_empty() || inputs(concrete).iter().any(|index| read[*index]) {
+        return None;
+    }
+    let is_single = all.len() == 1 && given.functions[all[0]].parameters.is_empty();
+    Some(Answered { name: name.to_string(), is_single })
+}
+
+/// By function of a program, whether its runs may write it, and whether they may read it.
+struct Touched {
+    written: Vec<bool>,
+    read: Vec<bool>,
+}
+
+impl Touched {
+    fn by(program: &Program) -> Touched {
+        let mut found =
+            Touched { written: vec![false; program.functions.len()], read: vec![false; program.functions.len()] };
+        for initial in &program.initials {
+            found.look(program, initial.value.body);
+        }
+        let mut seen = vec![false; program.procedures.len()];
+        let mut open: Vec<RuleId> = Vec::new();
+        let mut procedures: Vec<_> = program.main.into_iter().collect();
+        procedures.extend(program.agents.iter().map(|agent| agent.procedure));
+        loop {
+            while let Some(procedure) = procedures.pop() {
+                if !std::mem::replace(&mut seen[procedure.0 as usize], true) {
+                    open.push(program.procedure(procedure).body);
+                }
+            }
+            let Some(id) = open.pop() else { return found };
+            if let Rule::Update { function, .. } | Rule::Return { function, .. } = program.rule(id) {
+                found.written[function.0 as usize] = true;
+            }
+            match program.rule(id).runs() {
+                Runs::Nothing => {}
+                Runs::Procedure(procedure) => procedures.push(procedure),
+                // Which rule it is depends on the state: all may be.
+                Runs::Value { .. } | Runs::Agent => {
+                    procedures.extend((0..program.procedures.len() as u32).map(program::ProcedureId));
+                }
+            }
+            program.each_term_of_rule(id, &mut |term| found.look(program, term));
+            program.each_child_of_rule(id, &mut |child| open.push(child));
+        }
+    }
+
+    /// Notes what a term reads, directly or through definitions.
+    fn look(&mut self, program: &Program, term: TermId) {
+        let mut open = vec![term];
+        while let Some(id) = open.pop() {
+            if let Term::Read { function, .. } | Term::Define { function, .. } = program.term(id)
+                && !std::mem::replace(&mut self.read[function.0 as usize], true)
+            {
+                open.extend(program.function(*function).definition.as_ref().map(|definition| definition.body));
+            }
+            program.each_child_of_term(id, &mut |child| open.push(child));
+        }
+    }
+
+    /// The functions of the state that are written.
+    fn written(&self, program: &Program) -> Vec<Observed> {
+        let is_state = |function: &Function| {
+            matches!(function.kind, FunctionKind::Controlled | FunctionKind::Out | FunctionKind::Shared)
+                && !function.library
+        };
+        let functions = program.functions.iter().zip(&self.written);
+        functions
+            .filter(|(function, written)| **written && is_state(function))
+            .map(|(function, _)| Observed {
+                name: function.name.clone(),
+                parameters: function.parameters.iter().map(|domain| program.domain(*domain).name.clone()).collect(),
+            })
+            .collect()
+    }
 }

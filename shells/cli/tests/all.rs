@@ -18,6 +18,8 @@ mod lsp_bad_input;
 mod lsp_disorder;
 mod lsp_recorded;
 mod owed;
+mod owed_guards;
+mod owed_imports;
 mod prompt;
 mod proofs;
 mod refinements;

@@ -173,10 +173,16 @@ fn what_cannot_be_replaced_is_open() {
         let text = check(folder, &PROVE, 0, &[says]);
         assert!(!text.contains("proved ("), "{text}");
     };
-    open(&CHART.replace("by lifting", "by raising"), "open, there is no pattern raising in the chart");
-    open(&CHART.replace("by lifting", "by crane"), "open, there is no pattern crane in the chart");
+    open(
+        &CHART.replace("by lifting", "by raising"),
+        "open, there is no pattern raising in the chart, nor in one that it imports",
+    );
+    open(&CHART.replace("by lifting", "by crane"), "open, crane is a machine, which is never left");
     let guard = CHART.replace("guard asked \"Asked\"", "guard asked \"Asked\" to refine by lifting");
-    open(&guard.replace("\"LIFT\" to refine by lifting", "\"LIFT\""), "open, a guard has two exits");
+    open(
+        &guard.replace("\"LIFT\" to refine by lifting", "\"LIFT\""),
+        "open, a guard has two exits, and lifting is left without an answer",
+    );
     let other = CHART.replace("pattern lifting", "pattern lifting ($n in Boolean)");
     open(&other, "open, lifting has other parameters than the rule of the action");
 }

@@ -6,7 +6,7 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use chart::{Chart, End, Loaded, Machine, Part, ShapeKind};
+use chart::{Arrow, Chart, End, Loaded, Machine, Part, ShapeKind};
 use draw::{Drawing, Figure, Picture, Placed, Theme, drawings};
 use groundstate::Kind;
 use ide::{Centre, Fresh, FreshKind, Joint, Operation};
@@ -287,6 +287,7 @@ impl View<'_> {
             "link": own.and_then(|own| own.link),
             "refine": refinement.map(|refinement| json!({ "by": refinement.by })),
             "of": of,
+            "answers": pattern.is_some_and(chart::Machine::answers),
             "within": within,
             "composite": composite,
             "opens": opens,
@@ -318,7 +319,13 @@ fn arrow(machine: &Machine, from: &str, branch: Option<bool>, to: &str) -> Optio
         End::Exit => id.starts_with("exit "),
         End::Shape(shape) => machine.shape(shape).name == id,
     };
-    let found = machine.arrows.iter().find(|arrow| is(arrow.from, from) && arrow.branch == branch && is(arrow.to, to));
+    let answer = |arrow: &&Arrow| match arrow.answer {
+        Some(true) => to.starts_with("exit yes "),
+        Some(false) => to.starts_with("exit no "),
+        None => true,
+    };
+    let leads = |arrow: &&Arrow| is(arrow.from, from) && arrow.branch == branch && is(arrow.to, to);
+    let found = machine.arrows.iter().filter(leads).find(answer);
     found.map(|arrow| arrow.span)
 }
 
@@ -425,7 +432,10 @@ fn joint(value: &Value) -> Result<Joint, Refused> {
     let end = |key: &str| {
         let name = value[key].as_str().ok_or_else(|| wrong(format!("`{key}` is the name of a shape")))?;
         // Each floating arrow has an end of its own in the picture, and one name in the text.
-        Ok(if name.starts_with("exit ") { "exit".to_string() } else { name.to_string() })
+        let exit = ["exit yes", "exit no", "exit"]
+            .into_iter()
+            .find(|exit| name.strip_prefix(exit).is_some_and(|rest| rest.is_empty() || rest.starts_with(' ')));
+        Ok(exit.unwrap_or(name).to_string())
     };
     let branch = match &value["branch"] {
         Value::Null => None,

@@ -20,8 +20,8 @@ pub(crate) use known::OWNED;
 pub use known::{Known, Unknown};
 pub(crate) use rule::{machine_rule, origin_condition};
 pub(crate) use spelling::{
-    call, control_location, function_name, inner_control, instance_call, memory_location, of_instance, rule_name,
-    state_value,
+    answer_location, answer_name, call, control_location, function_name, inner_control, instance_call, memory_location,
+    of_instance, rule_name, state_value,
 };
 pub(crate) use system::taken;
 pub use system::{Lengths, budget, busy, late};
@@ -52,6 +52,10 @@ pub fn unbuilt(chart: &Chart, known: &Known) -> Vec<syntax::Diagnostic> {
         {
             faults.push(fault::made_already(*span, name));
         }
+        let answer = answer_name(machine);
+        if machine.answers() && known.terms.contains(&answer) {
+            faults.push(fault::answer::made_already(machine.span, &answer));
+        }
     }
     if chart.system.is_none() {
         faults.extend(twice(chart, known));
@@ -75,6 +79,7 @@ fn twice(chart: &Chart, known: &Known) -> Vec<syntax::Diagnostic> {
                 ShapeKind::Guard if !known.terms.contains(name) => {
                     let control = |other: &Machine| match &other.control {
                         Some(Control::Made { name: made, span }) if made == name => Some(*span),
+                        _ if other.answers() && answer_name(other) == name => Some(other.span),
                         _ => None,
                     };
                     ("function", machines().find_map(control))

@@ -8,7 +8,7 @@ use std::fmt::Write;
 
 use super::known::Known;
 use super::rule::machine_rule;
-use super::spelling::{applied, call, function_name, memory_name, rule_name, state_value};
+use super::spelling::{answer_name, applied, call, function_name, memory_name, rule_name, state_value};
 use crate::chart::{Chart, Composite, Control, History, Machine, Shape, ShapeKind};
 use crate::flow::is_block;
 
@@ -51,6 +51,7 @@ pub(super) fn parts(chart: &Chart, known: &Known) -> Parts {
     let runs = |machine: &&Machine| !machine.is_pattern && matches!(machine.control, Some(Control::Made { .. }));
     domains(chart, known, &mut parts);
     controls(chart, known, &mut parts);
+    answers(chart, &mut parts);
     for machine in &chart.machines {
         for shape in &machine.shapes {
             let of_a_machine =
@@ -121,18 +122,32 @@ fn controls(chart: &Chart, known: &Known, parts: &mut Parts) {
         let values = &made[&name];
         let text = format!("// the control states\nenum domain {domain} = {{ {} }}\n", values.join(" | "));
         add(&mut parts.declarations, &domain, text, true);
-        let of: Vec<&str> = machine.parameters.iter().map(|parameter| parameter.domain.as_str()).collect();
-        let of = match of[..] {
-            [] => String::new(),
-            [one] => format!("{one} -> "),
-            _ => format!("Prod({}) -> ", of.join(", ")),
-        };
+        let of = domain_of(machine);
         add(&mut parts.declarations, &name, format!("controlled {name}: {of}{domain}\n"), false);
         for composite in machine.shapes.iter().filter(|shape| remembers(shape)) {
             let memory = memory_name(composite);
             let note = format!("// where {} was left\n", composite.text.replace('\n', " "));
             add(&mut parts.declarations, &memory, format!("{note}controlled {memory}: {of}{domain}\n"), false);
         }
+    }
+}
+
+/// Adds what patterns are left with.
+fn answers(chart: &Chart, parts: &mut Parts) {
+    for machine in chart.machines.iter().filter(|machine| machine.answers()) {
+        let (name, of) = (answer_name(machine), domain_of(machine));
+        let note = format!("// what {} answers\n", machine.text.replace('\n', " "));
+        add(&mut parts.declarations, &name, format!("{note}controlled {name}: {of}Boolean\n"), false);
+    }
+}
+
+/// The domain of a function of a machine's parameters, with its arrow.
+fn domain_of(machine: &Machine) -> String {
+    let of: Vec<&str> = machine.parameters.iter().map(|parameter| parameter.domain.as_str()).collect();
+    match of[..] {
+        [] => String::new(),
+        [one] => format!("{one} -> "),
+        _ => format!("Prod({}) -> ", of.join(", ")),
     }
 }
 

@@ -117,6 +117,16 @@ pub(crate) fn memory_location(machine: &Machine, composite: &Shape) -> String {
     }
 }
 
+/// The function that holds what a pattern was left with.
+pub(crate) fn answer_name(machine: &Machine) -> String {
+    format!("{}Answer", function_name(&machine.name))
+}
+
+/// That function as a location.
+pub(crate) fn answer_location(machine: &Machine) -> String {
+    applied(&answer_name(machine), machine, '(', ')')
+}
+
 /// The name of a function, derived from another name.
 pub(crate) fn function_name(name: &str) -> String {
     let mut letters = name.chars();

@@ -2,6 +2,7 @@
 //!
 //! In: the place, and what is there. Out: a diagnostic whose id is one of [`IDS`] and has a page `spec/faults/<id>.md`.
 
+pub(crate) mod answer;
 pub(crate) mod component;
 pub(crate) mod foreign;
 pub(crate) mod import;
@@ -43,12 +44,14 @@ pub const IDS: &[&str] = &[
     "not-verified",
     "overlapping-paths",
     "overloaded",
+    "pattern-answer",
     "system-differs",
     "time-unit",
     "to-refine",
     "uncovered-case",
     "undecided-paths",
     "unfed-function",
+    "unfit-refinement",
     "unknown-shape",
     "unreachable-shape",
     "untaken-function",

@@ -116,6 +116,7 @@ impl Files<'_> {
                 None => imported.patterns.push(pattern.clone()),
             }
         }
+        imported.beyond.extend(chart.patterns.iter().map(|pattern| pattern.name.clone()));
         let folder = path.rsplit_once(['/', '\\']).map_or("", |(folder, _)| folder);
         for model in &chart.imports {
             let path = if folder.is_empty() { model.clone() } else { tidied(&format!("{folder}/{model}")) };
@@ -136,6 +137,8 @@ pub(super) struct Imported {
     pub(super) places: Vec<Span>,
     /// Patterns of the imported charts.
     pub(super) patterns: Vec<crate::chart::Machine>,
+    /// The names of patterns that these charts import themselves.
+    pub(super) beyond: Vec<String>,
 }
 
 impl Imported {

@@ -5,7 +5,7 @@ use syntax::{Span, SyntaxToken};
 
 use super::link::{flat, link, names_function};
 use super::{Reader, structure};
-use crate::build::function_name;
+use crate::build::{answer_name, function_name};
 use crate::chart::{
     Arrow, Composite, Control, End, History, Machine, Parameter, Pattern, Refinement, Shape, ShapeId, ShapeKind,
 };
@@ -66,6 +66,9 @@ impl Reader {
         let guards = machine.shapes.iter().filter(|shape| shape.kind == ShapeKind::Guard && shape.link.is_none());
         for guard in guards {
             self.function_name(&function_name(&guard.name), guard.span);
+        }
+        if machine.answers() {
+            self.function_name(&answer_name(machine), machine.span);
         }
     }
 
@@ -198,14 +201,18 @@ impl Reader {
         let (start, end) = (span(from), span(to));
         let target = self.end(to, machine);
         let Some(source) = self.end(from, machine) else { return };
-        let guard = match source {
-            End::Shape(id) => machine.shape(id).kind == ShapeKind::Guard,
-            _ => false,
+        let (guard, is_instance) = match source {
+            End::Shape(id) => {
+                let kind = &machine.shape(id).kind;
+                (*kind == ShapeKind::Guard, matches!(kind, ShapeKind::Instance(_)))
+            }
+            _ => (false, source == End::Exit),
         };
         let name = from.name().map(|name| name.text().to_string()).unwrap_or_default();
         match (guard, from.branch()) {
             (true, None) => self.faults.push(fault::bare_guard(start, &name)),
-            (false, Some(_)) => self.faults.push(fault::needless_exit(start, &name)),
+            // Which patterns answer is not known yet.
+            (false, Some(_)) if !is_instance => self.faults.push(fault::needless_exit(start, &name)),
             _ => {}
         }
         if source == End::Exit {
@@ -213,10 +220,12 @@ impl Reader {
         } else if target == Some(End::Enter) {
             self.faults.push(fault::misplaced_exit(end, "enter", "a pattern is entered from outside"));
         } else if let Some(target) = target {
-            let known = |arrow: &&Arrow| arrow.from == source && arrow.branch == from.branch() && arrow.to == target;
+            let (branch, answer) = (from.branch(), to.branch().filter(|_| target == End::Exit));
+            let known =
+                |arrow: &&Arrow| (arrow.from, arrow.branch, arrow.to, arrow.answer) == (source, branch, target, answer);
             // Two paths may both contain an arrow that they share.
             if machine.arrows.iter().find(known).is_none() {
-                machine.arrows.push(Arrow { from: source, branch: from.branch(), to: target, span: end });
+                machine.arrows.push(Arrow { from: source, branch, to: target, answer, span: end });
             }
         }
     }

@@ -3,6 +3,7 @@
 //! In: the tree of one chart file, and its imports. Out: a [`Chart`], as complete as the text allows, and the faults in
 //! the order of their places. Whether links resolve is for `check` to decide.
 
+mod answer;
 mod awaits;
 mod import;
 mod link;
@@ -35,8 +36,8 @@ pub fn read(file: FileId, parse: &Parse) -> (Chart, Vec<Diagnostic>) {
 
 fn read_with(file: FileId, parse: &Parse, imported: import::Imported) -> (Chart, Vec<Diagnostic>) {
     let mut reader = Reader { file, faults: parse.diagnostics.clone() };
-    let import::Imported { charts, models, places, patterns } = imported;
-    let mut chart = Chart { imports: models, places, charts, patterns, ..Chart::default() };
+    let import::Imported { charts, models, places, patterns, beyond } = imported;
+    let mut chart = Chart { imports: models, places, charts, patterns, beyond, ..Chart::default() };
     if let Some(tree) = ChartFile::cast(parse.syntax()) {
         reader.chart(&tree, &mut chart);
     }
@@ -72,6 +73,8 @@ impl Reader {
         for (machine, over) in flow::settle(chart) {
             self.faults.push(fault::contains_itself(chart.machines[machine].span, &over));
         }
+        self.answers(chart);
+        self.refinements(chart);
         for index in 0..chart.machines.len() {
             match flattened(chart, &chart.machines[index]) {
                 Ok(flat) => chart.machines[index].flattened = flat.map(Arc::new),

@@ -196,7 +196,8 @@ fn circle_from(
     }
 }
 
-fn unreachable(machine: &Machine, faults: &mut Vec<Diagnostic>) {
+/// Where paths lead.
+pub(super) fn reached(machine: &Machine) -> BTreeSet<End> {
     let mut open = vec![if machine.is_pattern { Some(End::Enter) } else { machine.initial().map(End::Shape) }];
     // Other rules may also set a location of the specification, so they may lead to any control state.
     if let Some(Control::Linked(_)) = machine.control {
@@ -224,6 +225,11 @@ fn unreachable(machine: &Machine, faults: &mut Vec<Diagnostic>) {
             open.extend(machine.shape(id).inside.map(|around| Some(End::Shape(around))));
         }
     }
+    seen
+}
+
+fn unreachable(machine: &Machine, faults: &mut Vec<Diagnostic>) {
+    let seen = reached(machine);
     if seen.is_empty() {
         return; // there is no initial state, and that is said
     }

@@ -54,7 +54,8 @@ fn nodes(out: &mut String, scene: &Scene, around: Option<usize>) {
             Figure::Hexagon => writeln!(out, "  n{index}{{{{\"{text}\"}}}}"),
             Figure::Block => writeln!(out, "  n{index}[[\"{text}\"]]"),
             Figure::Channel => writeln!(out, "  n{index}([\"{text}\"])"),
-            Figure::Enter | Figure::Exit => writeln!(out, "  n{index}[\" \"]:::end"),
+            Figure::Enter | Figure::Exit if text.is_empty() => writeln!(out, "  n{index}[\" \"]:::end"),
+            Figure::Enter | Figure::Exit => writeln!(out, "  n{index}[\"{text}\"]:::end"),
             Figure::Rectangle | Figure::Component | Figure::Device => writeln!(out, "  n{index}[\"{text}\"]"),
         };
         if node.dashed {

@@ -6,12 +6,12 @@ use syntax::{SyntaxNode, SyntaxToken};
 
 use super::{Section, Work};
 
-/// An arrow, by its ends; `enter` and `exit` are ends of patterns.
+/// An arrow, by its ends; `enter` and `exit` are ends of patterns, `exit yes` and `exit no` those of patterns that answer.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Joint {
     /// Where it starts.
     pub from: String,
-    /// The exit of the guard that it leaves.
+    /// The exit that it leaves, of a guard or of the block of a pattern that answers.
     pub branch: Option<bool>,
     /// Where it ends.
     pub to: String,
@@ -210,10 +210,10 @@ fn legal(machine: &MachineChart, joint: &Joint) -> Result<(Joint, bool), String>
     if joint.to == "enter" || joint.from == "exit" {
         return Err("an arrow leads from `enter` to `exit`, not back".to_string());
     }
-    if !machine.is_pattern() && (joint.from == "enter" || joint.to == "exit") {
+    if !machine.is_pattern() && (joint.from == "enter" || is_exit(&joint.to)) {
         return Err("only a pattern is entered and left; this is a machine".to_string());
     }
-    if joint.to != "exit" && shape(&joint.to).is_none() {
+    if !is_exit(&joint.to) && shape(&joint.to).is_none() {
         return Err(format!("there is no shape `{}`", joint.to));
     }
     if let Some(Shape::Entry(_) | Shape::Exit(_) | Shape::Abort(_)) = shape(&joint.to) {
@@ -228,7 +228,9 @@ fn legal(machine: &MachineChart, joint: &Joint) -> Result<(Joint, bool), String>
             };
             return Ok((joint, false));
         }
-        (_, Some(Shape::Action(_) | Shape::Instance(_))) => false,
+        // Whether its pattern answers, the check tells: it may come from another file.
+        (_, Some(Shape::Instance(_))) => return Ok((joint, false)),
+        (_, Some(Shape::Action(_))) => false,
         (_, Some(Shape::Entry(_) | Shape::Exit(_) | Shape::Abort(_))) => {
             return Err(format!("`{}` is done by itself, and stands on no path", joint.from));
         }
@@ -238,11 +240,20 @@ fn legal(machine: &MachineChart, joint: &Joint) -> Result<(Joint, bool), String>
     Ok((joint, forks))
 }
 
+/// Whether an arrow that ends there leaves the pattern, with or without an answer.
+fn is_exit(name: &str) -> bool {
+    ["exit", "exit yes", "exit no"].contains(&name)
+}
+
 /// What a stop names.
 fn named(stop: &PathStop) -> Option<String> {
     match (stop.is_enter(), stop.is_exit()) {
         (true, _) => Some("enter".to_string()),
-        (_, true) => Some("exit".to_string()),
+        (_, true) => Some(match stop.branch() {
+            Some(true) => "exit yes".to_string(),
+            Some(false) => "exit no".to_string(),
+            None => "exit".to_string(),
+        }),
         _ => Some(stop.name()?.text().to_string()),
     }
 }

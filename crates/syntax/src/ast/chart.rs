@@ -34,7 +34,7 @@ nodes! {
     Refinement = REFINEMENT,
     /// `stop -> stop -> …`
     ChartPath = CHART_PATH,
-    /// `enter`, `exit`, `NAME`, `NAME yes`, `NAME no`
+    /// `enter`, `exit`, `exit yes`, `exit no`, `NAME`, `NAME yes`, `NAME no`
     PathStop = PATH_STOP,
     /// `sequence NAME, NAME`
     Sequence = SEQUENCE,
@@ -270,7 +270,7 @@ impl PathStop {
     pub fn is_exit(&self) -> bool {
         token(self.syntax(), EXIT_KW).is_some()
     }
-    /// The exit of a guard: `yes` is true.
+    /// The exit of a guard, or the answer with which a pattern is left: `yes` is true.
     pub fn branch(&self) -> Option<bool> {
         tokens(self.syntax()).find_map(|token| match token.kind() {
             YES_KW => Some(true),

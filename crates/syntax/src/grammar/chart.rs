@@ -233,7 +233,7 @@ fn sequence(p: &mut Parser<'_>) {
     p.finish();
 }
 
-/// `NAME [yes|no] -> … -> NAME`
+/// `NAME [yes|no] -> … -> NAME`; a pattern that answers ends at `exit yes` or `exit no`
 fn path(p: &mut Parser<'_>) {
     p.start(CHART_PATH);
     stop(p);
@@ -247,6 +247,13 @@ fn stop(p: &mut Parser<'_>) {
     p.start(PATH_STOP);
     if let Some(end) = keyword(p, &[ENTER_KW, EXIT_KW]) {
         p.bump_as(end);
+        // A word before an arrow begins the next path.
+        if end == EXIT_KW
+            && let Some(answer) = keyword(p, &[YES_KW, NO_KW])
+            && p.peek(1) != ARROW
+        {
+            p.bump_as(answer);
+        }
     } else if shape_name(p)
         && let Some(branch) = keyword(p, &[YES_KW, NO_KW])
         && p.peek(1) == ARROW
@@ -355,6 +362,33 @@ mod tests {
                     control
                     LINK({ FUNCTION(f ARGUMENT_LIST(( $x ))) }))
                   CHART_PATH(PATH_STOP(enter) -> PATH_STOP(a) -> PATH_STOP(exit))
+                  endpattern)"#]],
+        );
+    }
+
+    #[test]
+    fn answers() {
+        check(
+            "chart C pattern p enter -> g yes -> exit yes g no -> exit no endpattern pattern q a -> exit yes -> exit endpattern",
+            expect![[r#"
+                chart
+                C
+                MACHINE_CHART(
+                  pattern
+                  p
+                  CHART_PATH(
+                    PATH_STOP(enter)
+                    ->
+                    PATH_STOP(g yes)
+                    ->
+                    PATH_STOP(exit yes))
+                  CHART_PATH(PATH_STOP(g no) -> PATH_STOP(exit no))
+                  endpattern)
+                MACHINE_CHART(
+                  pattern
+                  q
+                  CHART_PATH(PATH_STOP(a) -> PATH_STOP(exit))
+                  CHART_PATH(PATH_STOP(yes) -> PATH_STOP(exit))
                   endpattern)"#]],
         );
     }

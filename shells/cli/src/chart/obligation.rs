@@ -7,7 +7,7 @@ use std::path::Path;
 use groundstate::refine::{Coupling, Options, Verdict, refine};
 use groundstate::tell::Refinements;
 use groundstate::verify::Progress;
-use groundstate::{Assumptions, Loaded, Owed, OwedProof, assume};
+use groundstate::{Assumptions, Leaving, Loaded, Owed, OwedProof, assume, leaving};
 use syntax::SourceFile;
 
 use crate::failure::Failure;
@@ -50,6 +50,8 @@ pub enum Told {
         waiting: bool,
         /// What the file beside the chart assumes.
         assumed: Vec<String>,
+        /// The answers that it never gives.
+        never: Vec<bool>,
     },
     /// It was refuted.
     Refuted {
@@ -69,12 +71,18 @@ impl Told {
             Told::Open(why) => format!("open, {why}"),
             Told::Refined { command } => format!("refined, not proved; `{command}` looks"),
             Told::Differs => "refined, not proved: chart and model differ".to_string(),
-            Told::Proved { pairs, observed, waiting, assumed } => {
+            Told::Proved { pairs, observed, waiting, assumed, never } => {
                 let mut taken = assumed.clone();
                 taken.extend(waiting.then(|| "that waiting ends".to_string()));
                 let waiting = if taken.is_empty() { String::new() } else { format!(", assumed {}", taken.join(", ")) };
+                let never = match never[..] {
+                    [] => "",
+                    [true] => "; it never answers yes",
+                    [false] => "; it never answers no",
+                    _ => "; it is never asked",
+                };
                 format!(
-                    "proved ({}, observed {}{waiting})",
+                    "proved ({}, observed {}{waiting}{never})",
                     crate::check::plural(*pairs as usize, "pair"),
                     observed.join(", ")
                 )
@@ -99,16 +107,19 @@ pub fn told(shell: &Shell, file: &Path, owed: &[Owed], prove: Option<Asked>, dif
     all
 }
 
+/// The file beside the chart that says what is assumed.
+fn beside(shell: &Shell, path: &Path) -> Result<Option<SourceFile>, Told> {
+    match read_source(path, shell.global.limits.max_file_size) {
+        Ok(read) => Ok(Some(read)),
+        Err(Failure::Missing(_)) => Ok(None),
+        Err(_) => Err(Told::Unknown(format!("{} cannot be read", path.display()))),
+    }
+}
+
 /// Both models with what the file beside the chart assumes. They are the chart's: what is assumed of one is assumed of the other.
-fn assumed(shell: &Shell, file: &Path, proof: &OwedProof) -> Result<[Assumptions; 2], Told> {
-    let path = path_of(file);
-    let beside = match read_source(&path, shell.global.limits.max_file_size) {
-        Ok(read) => Some(read),
-        Err(Failure::Missing(_)) => None,
-        Err(_) => return Err(Told::Unknown(format!("{} cannot be read", path.display()))),
-    };
+fn assumed(path: &Path, beside: Option<&SourceFile>, proof: &OwedProof) -> Result<[Assumptions; 2], Told> {
     let of = |model: &Loaded| {
-        assume(model, beside.as_ref(), &[]).map_err(|trouble| {
+        assume(model, beside, &[]).map_err(|trouble| {
             let message = trouble.1.first().map_or("", |fault| &fault.message);
             Told::Open(format!("{} has faults: {message}", path.display()))
         })
@@ -116,9 +127,29 @@ fn assumed(shell: &Shell, file: &Path, proof: &OwedProof) -> Result<[Assumptions
     Ok([of(&proof.models[0])?, of(&proof.models[1])?])
 }
 
+/// Whether the machine in the shape's place can always be left, and what it answers.
+fn left(shell: &Shell, proof: &OwedProof, beside: Option<&SourceFile>, asked: Asked) -> Leaving {
+    let Some(block) = &proof.block else { return Leaving::default() };
+    let options = groundstate::verify::Options {
+        limits: shell.global.limits.uninterrupted(),
+        interrupt: interrupt::request().clone(),
+        ..groundstate::verify::Options::default()
+    };
+    let mut watch = Watch::new(asked.time, true);
+    let found =
+        leaving(&proof.models[1], block, beside, options, &mut shell.disk(), &mut |progress| watch.at(progress));
+    watch.done();
+    found
+}
+
 fn proved(shell: &Shell, file: &Path, proof: &OwedProof, asked: Asked) -> Told {
     let limits = shell.global.limits.uninterrupted();
-    let all = match assumed(shell, file, proof) {
+    let path = path_of(file);
+    let file = match beside(shell, &path) {
+        Ok(file) => file,
+        Err(told) => return told,
+    };
+    let all = match assumed(&path, file.as_ref(), proof) {
         Ok(all) => all,
         Err(told) => return told,
     };
@@ -165,7 +196,14 @@ fn proved(shell: &Shell, file: &Path, proof: &OwedProof, asked: Asked) -> Told {
                 }
             }
             let (pairs, observed) = (report.progress.pairs, proof.observed.clone());
-            Told::Proved { pairs, observed, waiting: asked.waiting, assumed }
+            let Leaving { stuck, never } = left(shell, proof, file.as_ref(), asked);
+            match stuck {
+                // All that was taken for granted is that waiting ends, and here it cannot.
+                Some(report) => {
+                    Told::Refuted { why: "there is a state from which it is never left".to_string(), report }
+                }
+                None => Told::Proved { pairs, observed, waiting: asked.waiting, assumed, never },
+            }
         }
         Verdict::DoesNot(refutation) => {
             let report =
