@@ -492,3 +492,16 @@ fn what_cannot_be_awaited() {
     // One of several may come from outside.
     assert_eq!(told(&back.replace("awaits all", "awaits any")), [""; 0]);
 }
+
+#[test]
+fn a_name_that_is_made_must_not_be_that_of_a_rule() {
+    let told = |text: &str| {
+        let loaded = chart::load(SourceFile::new("Cell.chart", text), &mut Patterns);
+        loaded.diagnostics.iter().map(|fault| fault.message.clone()).collect::<Vec<_>>()
+    };
+    let renamed = |from: &str| FUSION.replace(from, "r");
+    assert_eq!(told(&renamed("frames")), ["`r_lock` cannot be the name of a function"]);
+    // A value has no lock.
+    assert_eq!(told(&renamed("poses")), [""; 0]);
+    assert!(told(&renamed("guide")).contains(&"`r_task` cannot be the name of a function".to_string()));
+}

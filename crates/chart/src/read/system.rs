@@ -80,6 +80,14 @@ impl Reader {
         for (name, span) in components.chain(channels).chain(phases.map(|phase| (&phase.name, phase.span))) {
             self.function_name(name, span);
         }
+        // A channel called `r` would have the lock `r_lock`, which is the name of a rule.
+        let buffers = system.channels.iter().filter(|channel| matches!(channel.kind, ChannelKind::Buffer { .. }));
+        let locks = buffers.map(|channel| (format!("{}_lock", channel.name), channel.span));
+        let of =
+            |component: &Component| ["task", "wait"].map(|part| (format!("{}_{part}", component.name), component.span));
+        for (name, span) in locks.chain(system.components.iter().flat_map(of)) {
+            self.function_name(&name, span);
+        }
         for device in node.devices() {
             let Some(name) = device.name() else { continue };
             system.devices.push(Device {

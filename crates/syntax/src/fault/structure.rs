@@ -357,7 +357,10 @@ pub(crate) fn unknown_trouble(found: Found<'_>, whole: bool) -> Diagnostic {
 pub(crate) fn expected_shape(found: Found<'_>, wanted: &str) -> Diagnostic {
     Diagnostic::error("expected-shape", found.span, format!("expected {wanted}, found {found}"))
         .here("this starts none, and the text up to the next one is skipped")
-        .with_help("start each with its word: `state`, `guard`, `action`, `instance`; a path with a name and `->`")
+        .with_help(match wanted.starts_with("a phase") {
+            true => "write each phase on a line, such as `read frames 0.5 ms`; several names have commas between them",
+            false => "start each with its word: `state`, `guard`, `action`, `instance`; a path with a name and `->`",
+        })
 }
 
 /// The limit of nesting.

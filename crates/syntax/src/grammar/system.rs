@@ -165,7 +165,14 @@ fn awaits(p: &mut Parser<'_>) {
     if let Some(word) = keyword(p, &[ALL_KW, ANY_KW]).filter(|_| names) {
         p.bump_as(word);
     }
-    while shape_name(p) && p.eat(COMMA) {}
+    while shape_name(p) && p.eat(COMMA) {
+        // The phase behind a comma too many is none of the names.
+        if p.on_new_line() && keyword(p, &ends).is_some() {
+            let found = p.missing();
+            p.fault(fault::expected_name(found, GENERIC_ID));
+            break;
+        }
+    }
     p.finish();
 }
 

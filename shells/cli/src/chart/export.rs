@@ -57,7 +57,9 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
         if !drawings.iter().any(|drawing| wanted(drawing.name())) {
             return Err(super::nothing_drawn(&drawings));
         }
-        return Err(Failure::usage("the chart has nothing of this name in this notation"));
+        return Err(Failure::usage(
+            "SCXML has state machines, and what the chart draws is a system: there is nothing to write in this notation",
+        ));
     }
     let Some(folder) = &arguments.output else {
         for (_, text) in &texts {

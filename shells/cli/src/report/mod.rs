@@ -110,7 +110,7 @@ pub struct Arguments {
         conflicts_with_all = ["spec", "steps", "svg", "svg_steps", "svg_from", "scenarios", "InputArguments"]
     )]
     runs: Vec<PathBuf>,
-    /// With --run: write a file of inputs here, for `groundstate run MODEL --input FILE`. It draws the times of elaborations and releases that
+    /// With --run: write a file of inputs here, for `groundstate run MODEL --random --input FILE`. It draws the times of elaborations and releases that
     /// vary in the chart beside the model, as often as they were recorded
     #[arg(long, value_name = "FILE", requires = "runs")]
     write_inputs: Option<PathBuf>,
