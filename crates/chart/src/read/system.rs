@@ -7,7 +7,7 @@ use syntax::ast::{self, AstNode, PhaseKind};
 use syntax::{Diagnostic, Severity, Span, SyntaxKind, SyntaxToken};
 
 use super::Reader;
-use super::link::{flat, link};
+use super::link::{flat, link, names_function};
 use super::machine::spoken;
 use crate::build::system::{busy, taken};
 use crate::system::{
@@ -82,11 +82,10 @@ impl Reader {
         }
         // A channel called `r` would have the lock `r_lock`, which is the name of a rule.
         let buffers = system.channels.iter().filter(|channel| matches!(channel.kind, ChannelKind::Buffer { .. }));
-        let locks = buffers.map(|channel| (format!("{}_lock", channel.name), channel.span));
-        let of =
-            |component: &Component| ["task", "wait"].map(|part| (format!("{}_{part}", component.name), component.span));
-        for (name, span) in locks.chain(system.components.iter().flat_map(of)) {
-            self.function_name(&name, span);
+        let locks = buffers.map(|channel| (&channel.name, "lock", channel.span));
+        let tasks = system.components.iter().map(|component| (&component.name, "task", component.span));
+        for (name, part, span) in locks.chain(tasks).filter(|(name, ..)| names_function(name)) {
+            self.function_name(&format!("{name}_{part}"), span);
         }
         for device in node.devices() {
             let Some(name) = device.name() else { continue };
