@@ -3,18 +3,11 @@
 
 use chart::times::{Order, Platform, Times, times};
 use syntax::SourceFile;
-use testkit::Patterns;
+use testkit::{Patterns, Random};
 
-/// G. Marsaglia's xorshift.
-struct Numbers(u64);
-
-impl Numbers {
-    fn between(&mut self, least: u64, most: u64) -> u64 {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        least + self.0 % (most - least + 1)
-    }
+/// A number between two, both of them possible.
+fn between(random: &mut Random, least: u64, most: u64) -> u64 {
+    least + random.below(most - least + 1)
 }
 
 /// What starts a task.
@@ -49,33 +42,33 @@ impl Task {
 }
 
 /// Periodic tasks, one that awaits several of them, and others behind it.
-fn drawn(numbers: &mut Numbers) -> Vec<Task> {
-    let writers = numbers.between(2, 3) as usize;
+fn drawn(numbers: &mut Random) -> Vec<Task> {
+    let writers = between(numbers, 2, 3) as usize;
     // Periods that differ by little drift through all their phases; what one of them leaves behind then shows in a long cycle.
-    let drift = numbers.between(0, 2) == 0;
+    let drift = between(numbers, 0, 2) == 0;
     let (least, most) = if drift { (19, 22) } else { (10, 40) };
-    let mut periods: Vec<u64> = (0..writers).map(|_| numbers.between(least, most)).collect();
+    let mut periods: Vec<u64> = (0..writers).map(|_| between(numbers, least, most)).collect();
     periods.sort_unstable();
-    let jitter = |numbers: &mut Numbers| if numbers.between(0, 2) == 0 { numbers.between(1, 4) } else { 0 };
+    let jitter = |numbers: &mut Random| if between(numbers, 0, 2) == 0 { between(numbers, 1, 4) } else { 0 };
     let periodic = |period| (period, jitter(numbers));
     let starts = periods.into_iter().map(periodic).collect::<Vec<_>>();
     let mut tasks: Vec<Task> = starts
         .into_iter()
         .map(|(period, jitter)| Task { start: Start::Every { period, jitter }, elaborates: 1, readers: Vec::new() })
         .collect();
-    for index in writers..writers + numbers.between(1, 3) as usize {
-        let mut awaits: Vec<usize> = (0..index).filter(|_| numbers.between(0, 1) == 0).collect();
+    for index in writers..writers + between(numbers, 1, 3) as usize {
+        let mut awaits: Vec<usize> = (0..index).filter(|_| between(numbers, 0, 1) == 0).collect();
         if awaits.is_empty() {
             awaits.push(index - 1);
         }
         for writer in &awaits {
             tasks[*writer].readers.push(index);
         }
-        let start = if numbers.between(0, 1) == 0 { Start::All(awaits) } else { Start::Any(awaits) };
-        tasks.push(Task { start, elaborates: numbers.between(1, 3), readers: Vec::new() });
+        let start = if between(numbers, 0, 1) == 0 { Start::All(awaits) } else { Start::Any(awaits) };
+        tasks.push(Task { start, elaborates: between(numbers, 1, 3), readers: Vec::new() });
     }
     if drift && let Some(last) = tasks.last_mut() {
-        last.elaborates = numbers.between(100, 200);
+        last.elaborates = between(numbers, 100, 200);
     }
     tasks
 }
@@ -112,7 +105,7 @@ fn analysed(text: &str) -> Times {
 }
 
 /// The longest time of a cycle of each task from when it could begin, and how many cycles began.
-fn simulated(tasks: &[Task], numbers: &mut Numbers, ticks: u64) -> (Vec<u64>, Vec<u64>) {
+fn simulated(tasks: &[Task], numbers: &mut Random, ticks: u64) -> (Vec<u64>, Vec<u64>) {
     let count = tasks.len();
     let mut longest = vec![0; count];
     let mut starts = vec![0; count];
@@ -127,7 +120,7 @@ fn simulated(tasks: &[Task], numbers: &mut Numbers, ticks: u64) -> (Vec<u64>, Ve
                 if now % period == 0 {
                     // As late as it may, in time, or in between.
                     release[index] =
-                        Some(now + [0, jitter, numbers.between(0, jitter)][numbers.between(0, 2) as usize]);
+                        Some(now + [0, jitter, between(numbers, 0, jitter)][between(numbers, 0, 2) as usize]);
                 }
                 if release[index].is_some_and(|at| at <= now) && left[index] == 0 {
                     (left[index], since[index], release[index]) = (task.execution(), Some(now / period * period), None);
@@ -165,7 +158,7 @@ fn simulated(tasks: &[Task], numbers: &mut Numbers, ticks: u64) -> (Vec<u64>, Ve
 
 #[test]
 fn no_cycle_takes_longer_than_analysed() {
-    let mut numbers = Numbers(0x9e37_79b9_7f4a_7c15);
+    let mut numbers = Random(0x9e37_79b9_7f4a_7c15);
     let (mut bounded, mut gathers, mut tight) = (0, 0, 0);
     let rounds = if std::env::var_os("GROUNDSTATE_FULL").is_some() { 3_000 } else { 300 };
     for _ in 0..rounds {

@@ -294,10 +294,7 @@ impl<'s> Analysis<'s> {
     fn interval(&self, index: usize) -> Option<u64> {
         match &self.periods[index].as_ref()?[..] {
             [one] => Some(*one),
-            several => {
-                let rate: f64 = several.iter().map(|period| 1.0 / (*period).max(1) as f64).sum();
-                Some((1.0 / rate) as u64)
-            }
+            several => Some((1.0 / starts::rate(several.iter().copied())) as u64),
         }
     }
 

@@ -21,7 +21,7 @@ const STREAMS: usize = 64;
 /// For each component how often it starts in the long run: the periods of its streams. None: at any time.
 pub(super) fn periods(system: &System) -> Vec<Option<Vec<u64>>> {
     let mut known: Vec<Option<Vec<u64>>> = vec![None; system.components.len()];
-    let rate = |periods: &Vec<u64>| periods.iter().map(|period| 1.0 / (*period).max(1) as f64).sum::<f64>();
+    let often = |periods: &Vec<u64>| rate(periods.iter().copied());
     // Each round is right by itself; later ones know more writers.
     for _ in 0..2 * system.components.len() {
         let of = |component: &crate::system::Component| {
@@ -30,7 +30,7 @@ pub(super) fn periods(system: &System) -> Vec<Option<Vec<u64>>> {
             };
             let writers = awaits.channels.iter().map(|channel| known[system.channels[*channel].from].clone());
             match awaits.needs {
-                Needs::All => writers.flatten().min_by(|one, other| rate(one).total_cmp(&rate(other))),
+                Needs::All => writers.flatten().min_by(|one, other| often(one).total_cmp(&often(other))),
                 Needs::Any => writers.collect::<Option<Vec<Vec<u64>>>>().map(|all| all.concat()),
             }
             .filter(|periods| (1..=STREAMS).contains(&periods.len()))
@@ -65,7 +65,8 @@ impl Analysis<'_> {
         if awaits.gathers() {
             // What lay there before lets a cycle begin that no arrival stands for.
             let all = arrivals.filter_map(|(channel, streams)| Some(self.with_backlog(channel, streams?)));
-            return all.min_by(|one, other| rate(one).total_cmp(&rate(other)));
+            let often = |streams: &Vec<Stream>| rate(streams.iter().map(|one| one.period));
+            return all.min_by(|one, other| often(one).total_cmp(&often(other)));
         }
         let all = arrivals.map(|(_, streams)| streams).collect::<Option<Vec<Vec<Stream>>>>()?.concat();
         (1..=STREAMS).contains(&all.len()).then_some(all)
@@ -110,28 +111,18 @@ impl Analysis<'_> {
     }
 }
 
-fn rate(streams: &[Stream]) -> f64 {
-    streams.iter().map(|one| 1.0 / one.period.max(1) as f64).sum()
+/// How many events of these periods come in a tick, in the long run.
+pub(super) fn rate(periods: impl Iterator<Item = u64>) -> f64 {
+    periods.map(|period| 1.0 / period.max(1) as f64).sum()
 }
 
 #[cfg(test)]
 mod tests {
     use syntax::{FileId, parse_chart};
+    use testkit::Random;
 
     use super::*;
     use crate::times::{Order, Platform};
-
-    struct Numbers(u64);
-
-    impl Numbers {
-        /// G. Marsaglia's xorshift.
-        fn between(&mut self, least: u64, most: u64) -> u64 {
-            self.0 ^= self.0 << 13;
-            self.0 ^= self.0 >> 7;
-            self.0 ^= self.0 << 17;
-            least + self.0 % (most - least + 1)
-        }
-    }
 
     fn chart(quantifier: &str, periods: [u64; 2]) -> String {
         let writer = |name: &str, period: u64| {
@@ -167,13 +158,13 @@ mod tests {
 
     #[test]
     fn no_run_has_more_starts_than_the_streams_allow() {
-        let mut numbers = Numbers(77);
+        let mut numbers = Random(77);
         let mut tight = 0;
         for round in 0..200 {
             let all = round % 2 == 0;
             // Periods that differ by little drift through all their phases.
-            let least = numbers.between(8, 30);
-            let periods = [least, least + numbers.between(0, 3)];
+            let least = 8 + numbers.below(23);
+            let periods = [least, least + numbers.below(4)];
             let text = chart(if all { "all" } else { "any" }, periods);
             let parse = parse_chart(FileId(0), &text);
             let (chart, faults) = crate::read::read(FileId(0), &parse);
@@ -182,8 +173,8 @@ mod tests {
             let analysis = Analysis::new(&system, Platform { processors: 3, order: Order::Rate });
             let Some(streams) = &analysis.releases[2] else { panic!("no streams: {text}") };
             let arrivals = [0, 1].map(|writer| {
-                let offset = numbers.between(0, periods[writer]);
-                (0..120).map(|number| offset + number * periods[writer] + numbers.between(2, 3)).collect::<Vec<u64>>()
+                let offset = numbers.below(periods[writer] + 1);
+                (0..120).map(|number| offset + number * periods[writer] + 2 + numbers.below(2)).collect::<Vec<u64>>()
             });
             let begins = begins(all, &arrivals);
             for (first, from) in begins.iter().enumerate() {
