@@ -2,25 +2,30 @@
 //!
 //! In: a checked model. Out: a [`Chart`] with a machine for each rule that tests and sets a control location (an enum
 //! value or undef), in any nesting of `if`, `switch`, `let` and macro calls; for other rules that set such a location,
-//! why they are no machines. Equal tails of paths share their shapes.
+//! why they are no machines. Equal tails of paths share their shapes; [`nest`] also finds composite states.
 //!
 //! INVARIANT: the written chart has no faults, and its rules do what the model's rules do ([`agrees`] checks this).
 
 mod agrees;
+mod decisions;
+mod graph;
+mod nest;
+mod region;
+mod shapes;
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
+use std::sync::Arc;
 
 use model::{Call, DomainKind, FunctionId, Model, RuleId, RuleKind};
 
 use crate::begin::{Initial, UNDEF, initial_value};
-use crate::chart::{Arrow, Chart, Control, End, Machine, Parameter, Shape, ShapeId, ShapeKind, WORDS};
+use crate::chart::{Chart, Control, End, Machine, ShapeKind};
 use crate::defined::always_defined;
-use crate::link::Link;
-use crate::read::spoken;
-use crate::symbolic::{Depth, Effect, Explorer, Guarded, Path, Reason, consistent};
-
-/// LIMIT: how many guards, actions and states a machine may have.
-const MAX_SHAPES: usize = 1000;
+use crate::flat::flattened;
+use crate::symbolic::{Depth, Effect, Explorer, Guarded, Reason};
+use graph::Graph;
+use region::Region;
+use shapes::unused;
 
 /// The result of an extraction.
 #[derive(Debug)]
@@ -67,6 +72,29 @@ pub fn extract(model: &Model, only: Option<&str>, control: Option<&str>) -> Extr
     mixed(model, left, &mut judge, &mut found);
     one_each(&mut found);
     found
+}
+
+/// Draws what several states do alike, before anything else that they do, as the path of a composite state around them. A machine
+/// of which that cannot be said stays as it is.
+pub fn nest(model: &Model, found: &mut Extracted) {
+    let mut judge = agrees::Judge::new(model);
+    for machine in &mut found.chart.machines {
+        if let Some(nested) = nested(model, machine, &mut judge) {
+            *machine = nested;
+        }
+    }
+}
+
+fn nested(model: &Model, flat: &Machine, judge: &mut agrees::Judge<'_>) -> Option<Machine> {
+    let Some(Control::Linked(control)) = &flat.control else { return None };
+    let id = RuleId(model.rules.iter().position(|rule| rule.name == rule_of(flat))? as u32);
+    let (function, location) = controls(model, id).into_iter().find(|(_, location)| *location == control.text)?;
+    let trees = trees(model, id, function, &location, false).ok()??;
+    let trees = nest::nested(trees).ok()??;
+    let mut machine = shapes::machine(model, id, &location, &trees);
+    machine.name.clone_from(&flat.name);
+    machine.flattened = flattened(&Chart::default(), &machine).ok()?.map(Arc::new);
+    judge.refusal(&machine, id, function, &location).is_none().then_some(machine)
 }
 
 /// Keeps one machine per rule, that of the location that the text sets first, and gives each machine a unique name.
@@ -253,6 +281,31 @@ fn machine(
     control: &str,
     strict: bool,
 ) -> Result<Option<Machine>, Reason> {
+    let trees = trees(model, rule, function, control, strict)?;
+    Ok(trees.map(|trees| shapes::machine(model, rule, control, &trees)).filter(|machine| !machine.arrows.is_empty()))
+}
+
+/// What a rule does in its control states, before shapes stand for it.
+struct Trees<'c> {
+    graph: Graph<'c>,
+    /// What is done when a pattern is entered.
+    enter: Vec<usize>,
+    /// What is done in the states. A state has several only if the updates of the control location clash.
+    starts: Vec<(String, usize)>,
+    is_pattern: bool,
+    /// The state in which the model begins.
+    initial: Option<String>,
+    /// Composite states.
+    regions: Vec<Region>,
+}
+
+fn trees<'c>(
+    model: &Model,
+    rule: RuleId,
+    function: FunctionId,
+    control: &'c str,
+    strict: bool,
+) -> Result<Option<Trees<'c>>, Reason> {
     let values = values(model, function).unwrap_or_default();
     let mut steps: Vec<(String, Vec<Guarded>)> = Vec::new();
     let mut tested = false;
@@ -266,7 +319,6 @@ fn machine(
     if !tested || strict && does_always(&steps) {
         return Ok(None);
     }
-    let declared = model.rule(rule);
     let undef = if always_defined(model, function) { Vec::new() } else { steps[0].1.clone() };
     steps.remove(0);
     let initial = match initial_value(model, function) {
@@ -282,7 +334,7 @@ fn machine(
     if is_pattern && model.main == Some(rule) {
         return Ok(None);
     }
-    let mut graph = Graph { control, nodes: Vec::new(), index: BTreeMap::new() };
+    let mut graph = Graph::new(control);
     let enter = if is_pattern { graph.trees(&undef, UNDEF)? } else { Vec::new() };
     let mut starts = Vec::new();
     for (value, effects) in &steps {
@@ -291,33 +343,15 @@ fn machine(
     if !is_pattern {
         starts.extend(graph.trees(&undef, UNDEF)?.into_iter().map(|node| (UNDEF.to_string(), node)));
     }
-    let parameters = declared.parameters.iter().map(|id| {
-        let variable = &declared.variables[id.0 as usize];
-        Parameter { variable: variable.name.clone(), domain: model.domains.display(variable.domain) }
-    });
-    let link = Link { text: control.to_string(), name: name_of(control), is_application: true, span: declared.span };
-    let mut machine = Machine {
-        name: declared.name.trim_start_matches("r_").to_string(),
-        is_pattern,
-        parameters: parameters.collect(),
-        text: spoken(declared.name.trim_start_matches("r_")),
-        rule: Some(Link {
-            text: declared.name.clone(),
-            name: declared.name.clone(),
-            is_application: true,
-            span: declared.span,
-        }),
-        control: Some(Control::Linked(link)),
-        shapes: Vec::new(),
-        arrows: Vec::new(),
-        sequences: Vec::new(),
-        aborts: Vec::new(),
-        flattened: None,
-        steps: true,
-        span: declared.span,
-    };
-    graph.shapes(&mut machine, &enter, &starts, initial.as_deref());
-    Ok((!machine.arrows.is_empty()).then_some(machine))
+    Ok(Some(Trees { graph, enter, starts, is_pattern, initial, regions: Vec::new() }))
+}
+
+impl Trees<'_> {
+    /// The state in which the machine begins: where the model does not say so, the first one.
+    fn first(&self) -> Option<&str> {
+        let first = self.starts.first().map(|(value, _)| value.as_str());
+        self.initial.as_deref().or(first).filter(|_| !self.is_pattern)
+    }
 }
 
 /// Whether something is done under the same tests in every state, so that the rule does more than its machine.
@@ -332,240 +366,4 @@ fn does_always(steps: &[(String, Vec<Guarded>)]) -> bool {
 
 fn is_update_of(guarded: &Guarded, control: &str) -> bool {
     matches!(&guarded.effect, Effect::Update { location, .. } if location == control)
-}
-
-fn name_of(text: &str) -> String {
-    text.split(|c: char| !c.is_ascii_alphanumeric() && c != '_')
-        .find(|word| !word.is_empty())
-        .unwrap_or(text)
-        .to_string()
-}
-
-/// An effect with its remaining tests.
-type Open<'e> = (Path, &'e Guarded);
-
-#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
-enum Node {
-    Guard(String, Option<usize>, Option<usize>),
-    Action(String, usize),
-    /// A value of the control variable; `undef` is the exit.
-    Target(String),
-}
-
-/// Guards, actions and targets; equal nodes are shared.
-struct Graph<'c> {
-    control: &'c str,
-    nodes: Vec<Node>,
-    index: BTreeMap<Node, usize>,
-}
-
-impl Graph<'_> {
-    fn node(&mut self, node: Node) -> Result<usize, Reason> {
-        if let Some(index) = self.index.get(&node) {
-            return Ok(*index);
-        }
-        if self.nodes.len() >= MAX_SHAPES {
-            return Err(Reason::Large);
-        }
-        self.nodes.push(node.clone());
-        self.index.insert(node, self.nodes.len() - 1);
-        Ok(self.nodes.len() - 1)
-    }
-
-    /// The decisions and actions of some effects; empty if there are none. There are several trees only if one case
-    /// sets the control location to several values: such updates clash, and so do the paths.
-    fn trees(&mut self, effects: &[Guarded], origin: &str) -> Result<Vec<usize>, Reason> {
-        let effects: Vec<Open<'_>> = effects.iter().map(|guarded| (guarded.path.clone(), guarded)).collect();
-        let mut found = Vec::new();
-        while let Some(tree) = self.tree(&effects, origin, found.len())? {
-            found.push(tree);
-        }
-        Ok(found)
-    }
-
-    fn tree(&mut self, effects: &[Open<'_>], origin: &str, layer: usize) -> Result<Option<usize>, Reason> {
-        if effects.is_empty() {
-            return Ok(None);
-        }
-        let Some((path, _)) = effects.iter().find(|(path, _)| !path.is_empty()) else {
-            return self.leaf(effects, origin, layer);
-        };
-        let atom = path[0].0.clone();
-        let side = |wanted: bool| -> Vec<Open<'_>> {
-            let fits = effects.iter().filter(|(path, _)| consistent(path, &vec![(atom.clone(), wanted)]));
-            fits.map(|(path, guarded)| (path.iter().filter(|(known, _)| *known != atom).cloned().collect(), *guarded))
-                .collect()
-        };
-        let (yes, no) = (self.tree(&side(true), origin, layer)?, self.tree(&side(false), origin, layer)?);
-        match (yes, no) {
-            (yes, no) if yes == no => Ok(yes),
-            (yes, no) => self.node(Node::Guard(atom, yes, no)).map(Some),
-        }
-    }
-
-    /// What is done in one case. Further layers contain only the further values of the control location.
-    fn leaf(&mut self, effects: &[Open<'_>], origin: &str, layer: usize) -> Result<Option<usize>, Reason> {
-        let mut targets: Vec<&str> = Vec::new();
-        let mut actions: Vec<String> = Vec::new();
-        for (_, guarded) in effects {
-            match &guarded.effect {
-                Effect::Update { location, value, .. } if location == self.control => {
-                    if !targets.contains(&value.as_str()) {
-                        targets.push(value);
-                    }
-                }
-                Effect::Update { location, value, .. } => actions.push(format!("{location} := {value}")),
-                Effect::Rule(text) => actions.push(text.clone()),
-            }
-        }
-        let target = targets.get(layer).copied().or((layer == 0).then_some(origin));
-        let Some(target) = target else { return Ok(None) };
-        let mut next = self.node(Node::Target(target.to_string()))?;
-        let mut seen = BTreeSet::new();
-        for action in actions.into_iter().rev().filter(|_| layer == 0) {
-            if seen.insert(action.clone()) {
-                next = self.node(Node::Action(action, next))?;
-            }
-        }
-        Ok(Some(next))
-    }
-
-    /// The shapes and arrows of a machine.
-    fn shapes(&self, machine: &mut Machine, enter: &[usize], starts: &[(String, usize)], initial: Option<&str>) {
-        let mut ends: BTreeMap<usize, End> = BTreeMap::new();
-        let mut states: BTreeMap<&str, ShapeId> = BTreeMap::new();
-        let targets = self.nodes.iter().filter_map(|node| match node {
-            Node::Target(value) => Some(value.as_str()),
-            _ => None,
-        });
-        // The state in which the model begins is shown even if this rule does nothing in it.
-        let begins = initial.filter(|_| !machine.is_pattern);
-        let starting: Vec<&str> = starts.iter().map(|(value, _)| value.as_str()).collect();
-        let unknown = begins.filter(|value| !starting.contains(value));
-        let values = unknown.into_iter().chain(starting).chain(targets);
-        // Only a pattern may be outside of its states when its control location is undef; another machine needs a state
-        // for it.
-        let values: Vec<&str> = values.filter(|value| !machine.is_pattern || *value != UNDEF).collect();
-        let first = begins.or(values.first().copied());
-        for value in &values {
-            if !states.contains_key(value) {
-                let kind = ShapeKind::State { initial: !machine.is_pattern && first == Some(value) };
-                let (name, text) = match *value {
-                    UNDEF => ("undefined".to_string(), "Undefined".to_string()),
-                    literal => (camel(literal), sentence(literal)),
-                };
-                states.insert(value, add(machine, kind, &name, &text, value));
-            }
-        }
-        for (index, node) in self.nodes.iter().enumerate() {
-            let end = match node {
-                Node::Target(value) => states.get(value.as_str()).map_or(End::Exit, |id| End::Shape(*id)),
-                Node::Guard(atom, ..) => {
-                    let name = name_of(atom.trim_start_matches("not "));
-                    End::Shape(add(machine, ShapeKind::Guard, &name, &said(atom, &name), atom))
-                }
-                Node::Action(text, _) => {
-                    let name = name_of(text).trim_start_matches("r_").to_string();
-                    let shown = said(text, &name);
-                    let shown = if shown == *text { shown } else { shown.to_uppercase() };
-                    End::Shape(add(machine, ShapeKind::Action, &name, &shown, text))
-                }
-            };
-            ends.insert(index, end);
-        }
-        let span = machine.span;
-        let mut lead = |from: End, branch: Option<bool>, to: Option<usize>| {
-            if let Some(to) = to {
-                machine.arrows.push(Arrow { from, branch, to: ends[&to], answer: None, span });
-            }
-        };
-        enter.iter().for_each(|node| lead(End::Enter, None, Some(*node)));
-        for (value, node) in starts {
-            lead(End::Shape(states[value.as_str()]), None, Some(*node));
-        }
-        for (index, node) in self.nodes.iter().enumerate() {
-            match node {
-                Node::Guard(_, yes, no) => {
-                    lead(ends[&index], Some(true), *yes);
-                    lead(ends[&index], Some(false), *no);
-                }
-                Node::Action(_, next) => lead(ends[&index], None, Some(*next)),
-                Node::Target(_) => {}
-            }
-        }
-    }
-}
-
-/// The text that a picture shows for a term or rule: its name in words if it is an application, else all of it.
-fn said(text: &str, name: &str) -> String {
-    let plain = text.strip_prefix(name).or(text.strip_prefix("r_").and_then(|rest| rest.strip_prefix(name)));
-    match plain {
-        Some(rest) if rest.is_empty() || is_closed(rest) => spoken(name),
-        _ => text.to_string(),
-    }
-}
-
-/// Whether one pair of parentheses encloses the whole text.
-fn is_closed(text: &str) -> bool {
-    let mut depth = 0;
-    for (at, letter) in text.char_indices() {
-        match letter {
-            '(' | '[' => depth += 1,
-            ')' | ']' => depth -= 1,
-            _ => {}
-        }
-        if depth == 0 {
-            return at + 1 == text.len();
-        }
-    }
-    false
-}
-
-/// A name that is neither taken nor a word of charts; `other` replaces what cannot be a name.
-fn unused(name: &str, other: &str, taken: impl Fn(&str) -> bool) -> String {
-    let name = if name.starts_with(|c: char| c.is_alphabetic()) { name } else { other };
-    let taken = |name: &str| WORDS.contains(&name) || taken(name);
-    let mut unique = name.to_string();
-    let mut count = 2;
-    while taken(&unique) {
-        unique = format!("{name}{count}");
-        count += 1;
-    }
-    unique
-}
-
-fn add(machine: &mut Machine, kind: ShapeKind, name: &str, text: &str, link: &str) -> ShapeId {
-    let unique = unused(name, "shape", |name| machine.shapes.iter().any(|shape| shape.name == name));
-    let is_application = is_closed(link.trim_start_matches(|c: char| c.is_ascii_alphanumeric() || c == '_'));
-    let link = Link { text: link.to_string(), name: name_of(link), is_application, span: machine.span };
-    machine.shapes.push(Shape {
-        inside: None,
-        name: unique,
-        text: text.to_string(),
-        kind,
-        link: Some(link),
-        refinement: None,
-        span: machine.span,
-    });
-    ShapeId(machine.shapes.len() - 1)
-}
-
-/// `MANAGING_SB` as `managingSb`.
-fn camel(literal: &str) -> String {
-    let mut out = String::new();
-    for (index, word) in literal.split('_').filter(|word| !word.is_empty()).enumerate() {
-        let word = word.to_lowercase();
-        let mut letters = word.chars();
-        match letters.next() {
-            Some(first) if index > 0 => out.extend(first.to_uppercase().chain(letters)),
-            Some(_) => out.push_str(&word),
-            None => {}
-        }
-    }
-    out
-}
-
-/// `MANAGING_SB` as `Managing sb`.
-fn sentence(literal: &str) -> String {
-    spoken(&literal.to_lowercase())
 }

@@ -37,7 +37,8 @@ mod write;
 pub mod xml;
 
 pub use build::{
-    Built, Known, Lengths, Reduced, Unknown, build, kept, library, reduced, unbuilt, unverified, verifiable, verified,
+    Built, Known, Lengths, Reduced, Unknown, build, kept, library, reduced, unbuilt, unverified, verifiable,
+    verified,
 };
 pub use chart::{
     Arrow, Chart, Composite, Control, End, Layout, Machine, Parameter, Pattern, Refinement, Shape, ShapeId, ShapeKind,
@@ -47,7 +48,7 @@ pub use check::{Probed, built_faults, check, probed, stateless};
 pub use computing::{ComponentMachine, Computing, Content, Feed, Take};
 pub use dump::dump;
 pub use export::scxml_of;
-pub use extract::{Extracted, extract};
+pub use extract::{Extracted, extract, nest};
 pub use fault::IDS as FAULT_IDS;
 pub use flow::{Origin, Target, Transition, transitions};
 pub use lights::{Light, Lights};

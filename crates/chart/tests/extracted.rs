@@ -1,7 +1,7 @@
 //! An extracted chart has no faults and agrees with its model and with what is built from it; what cannot be extracted
 //! is reported.
 
-use chart::{Chart, Extracted, Known, build, dump, extract, probed, read, write};
+use chart::{Chart, Extracted, Known, build, dump, extract, nest, probed, read, write};
 use expect_test::{Expect, expect};
 use model::{Checked, Loader, check};
 use syntax::{Diagnostic, FileId, Severity, SourceFile, parse_chart};
@@ -22,7 +22,13 @@ fn checked(source: SourceFile, loader: &mut dyn Loader) -> Checked {
 /// back.
 fn kept(source: &SourceFile, loader: &mut dyn Loader) -> (Extracted, Chart) {
     let model = checked(source.clone(), loader).model;
-    let mut extracted = extract(&model, None, None);
+    kept_as(source, loader, extract(&model, None, None));
+    let mut nested = extract(&model, None, None);
+    nest(&model, &mut nested);
+    kept_as(source, loader, nested)
+}
+
+fn kept_as(source: &SourceFile, loader: &mut dyn Loader, mut extracted: Extracted) -> (Extracted, Chart) {
     if extracted.chart.machines.is_empty() {
         let chart = extracted.chart.clone();
         return (extracted, chart);
@@ -67,12 +73,17 @@ fn machines_in(folders: &[&str]) -> usize {
     files.map(|file| kept(&Disk::read(&file).expect("the model is there"), &mut Disk).1.machines.len()).sum()
 }
 
-/// The chart of a model's own rules, and what is reported of the others.
-fn found(signature: &str, rules: &str, init: &str) -> String {
-    let text = format!(
+/// A model with such a rule.
+fn model_with(signature: &str, rules: &str, init: &str) -> String {
+    format!(
         "asm M\nimport StandardLibrary\nsignature:\n enum domain Mode = {{IDLE | BUSY | DONE}}\n controlled mode: Mode\n {signature}\n\
          definitions:\n {rules}\n main rule r_Main = skip\ndefault init s0: {init}"
-    );
+    )
+}
+
+/// The chart of a model's own rules, and what is reported of the others.
+fn found(signature: &str, rules: &str, init: &str) -> String {
+    let text = model_with(signature, rules, init);
     let mut files = Texts::of([("M.asm", text.as_str())]);
     let (extracted, chart) = kept(&SourceFile::new("M.asm", text.clone()), &mut files);
     let mut out: String =
@@ -280,4 +291,150 @@ fn names_that_are_words_of_charts() {
           done --[]/--> busy
     "#]],
     );
+}
+
+/// The machine of a chart, built to a model and extracted from that again.
+fn again(machine: &str) -> String {
+    let text = format!("chart M\n{machine}");
+    let (chart, faults) = read(FileId(0), &parse_chart(FileId(0), &text));
+    assert_eq!(errors(&faults), Vec::<&Diagnostic>::new(), "{text}");
+    let known = Known::imported(&chart, "Imports.asm", &mut Texts::default()).unwrap_or_else(|_| panic!("{text}"));
+    let built = build(&chart, &known, None).expect("the chart has no faults").text;
+    let mut files = Texts::of([("M.asm", built.as_str())]);
+    let (_, chart) = kept(&SourceFile::new("M.asm", built.clone()), &mut files);
+    let text = write(&chart);
+    text[text.find("machine ").expect("a machine")..].to_string()
+}
+
+#[test]
+fn composite_states_with_history_entry_and_exit() {
+    expect![[r#"
+        machine carrier "Carrier" {r_carrier}
+        	control {mode}
+        	initial state stopped "Stopped" {STOPPED}
+        	state ready "Ready" {READY}
+        	composite state working "Working"
+        		history {workingLeft}
+        		initial state empty "Empty" {EMPTY}
+        		state loaded "Loaded" {LOADED}
+        		state lifted "Lifted" {LIFTED}
+        		entry lampOn "LAMP ON" {r_lampOn[]}
+        		exit lampOff "LAMP OFF" {r_lampOff[]}
+        		guard grasped "Grasped" {grasped}
+        		guard up "Up" {up}
+        		guard released "Released" {released}
+        	endstate
+        	guard fresh "Fresh" {fresh}
+        	guard started "Started" {started}
+        	action halt "HALT" {r_halt[]}
+        	guard emergency "Emergency" {emergency}
+        	guard full "Full" {full}
+        	stopped -> started yes -> working
+        	empty -> grasped yes -> loaded
+        	loaded -> released yes -> empty
+        	lifted -> full yes -> ready
+        	ready -> fresh yes -> loaded
+        	working -> emergency yes -> halt -> stopped
+        	up yes -> lifted
+        	released no -> up
+        endmachine
+    "#]]
+    .assert_eq(&again(
+        "machine carrier\n control mode\n initial state stopped\n composite state working\n history\n entry lampOn\n exit lampOff\n \
+         initial state empty\n state loaded\n state lifted\n guard grasped\n guard released\n guard full\n guard up\n \
+         empty -> grasped yes -> loaded\n loaded -> released yes -> empty\n released no -> up yes -> lifted\n lifted -> full yes -> ready\n endstate\n \
+         state ready\n guard started\n guard emergency\n guard fresh\n action halt\n stopped -> started yes -> working\n \
+         working -> emergency yes -> halt -> stopped\n ready -> fresh yes -> loaded\nendmachine\n",
+    ));
+}
+
+#[test]
+fn composite_states_in_composite_states() {
+    expect![[r#"
+        machine line "Line" {r_line}
+        	control {mode}
+        	initial state off "Off" {OFF}
+        	state failed "Failed" {FAILED}
+        	composite state untilStop "Until stop"
+        		initial state ready "Ready" {READY}
+        		entry power "POWER" {r_power[]}
+        		exit cut "CUT" {r_cut[]}
+        		composite state untilPause "Until pause"
+        			initial state forward "Forward" {FORWARD}
+        			state back "Back" {BACK}
+        			action turn "TURN" {r_turn[]}
+        			guard atEnd "At end" {atEnd}
+        		endstate
+        		guard atHome "At home" {atHome}
+        		guard pause "Pause" {pause}
+        		guard go "Go" {go}
+        	endstate
+        	guard reset "Reset" {reset}
+        	guard start "Start" {start}
+        	guard armed "Armed" {armed}
+        	guard broken "Broken" {broken}
+        	guard stop "Stop" {stop}
+        	off -> start yes -> untilStop
+        	failed -> reset yes -> untilStop
+        	ready -> go yes -> untilPause
+        	forward -> atEnd yes -> turn -> back
+        	back -> atHome yes -> ready
+        	untilStop -> stop yes -> armed yes -> off
+        	untilPause -> pause yes -> ready
+        	broken yes -> failed
+        	stop no -> broken
+        endmachine
+    "#]]
+    .assert_eq(&again(
+        "machine line\n control mode\n initial state off\n state failed\n composite state on\n entry power\n exit cut\n \
+         initial state ready\n composite state moving\n initial state forward\n state back\n guard atEnd\n guard atHome\n action turn\n \
+         forward -> atEnd yes -> turn -> back\n back -> atHome yes -> ready\n endstate\n guard go\n guard pause\n \
+         ready -> go yes -> moving\n moving -> pause yes -> ready\n endstate\n guard stop\n guard armed\n guard broken\n guard start\n guard reset\n \
+         off -> start yes -> on\n failed -> reset yes -> on\n on -> stop yes -> armed yes -> off\n stop no -> broken yes -> failed\nendmachine\n",
+    ));
+}
+
+/// A model with an emergency stop, asked in each of these ways; the states that stand in a composite state.
+fn held(stops: [&str; 2], more: &str) -> Vec<String> {
+    let [idle, busy] = stops;
+    let rule =
+        format!("rule r_stop = par if mode = IDLE then {idle} endif if mode = BUSY then {busy} endif {more} endpar");
+    let inputs = "monitored stop: Boolean monitored go: Boolean monitored ok: Boolean controlled n: Integer controlled last: Mode";
+    let text = model_with(inputs, &rule, "function mode = IDLE");
+    let mut files = Texts::of([("M.asm", text.as_str())]);
+    let (_, chart) = kept(&SourceFile::new("M.asm", text.clone()), &mut files);
+    let text = write(&chart);
+    let inside = |line: &&str| line.starts_with("\t\t") && line.contains("state ");
+    text.lines().filter(inside).map(|line| line.trim().to_string()).collect()
+}
+
+#[test]
+fn what_is_a_composite_state_and_what_is_none() {
+    let idle = "if stop then mode := DONE else if go then mode := BUSY endif endif";
+    let busy = "if stop then mode := DONE else if ok then mode := IDLE endif endif";
+    assert_eq!(held([idle, busy], "").len(), 2);
+    // Asked last, or the other way round.
+    assert_eq!(held([idle, "if ok and not stop then mode := IDLE elseif stop then mode := DONE endif"], "").len(), 2);
+    assert_eq!(held([idle, "if not stop then if ok then mode := IDLE endif else mode := DONE endif"], "").len(), 2);
+    // It does something else, or comes last.
+    assert_eq!(
+        held([idle, "if stop then par mode := DONE n := 1 endpar elseif ok then mode := IDLE endif"], ""),
+        [""; 0]
+    );
+    assert_eq!(held([idle, "if ok then mode := IDLE elseif stop then mode := DONE endif"], ""), [""; 0]);
+    // Two states that have nothing to do with each other.
+    assert_eq!(
+        held(["if stop then mode := DONE elseif go then n := 1 endif", "if stop then mode := DONE endif"], ""),
+        [""; 0]
+    );
+    // Something goes on beside it, in one of them.
+    assert_eq!(held([idle, busy], "if mode = BUSY and go then n := 2 endif"), [""; 0]);
+    // One way out does not remember.
+    let remember =
+        |state: &str, rest: &str| format!("if stop then par mode := DONE last := {state} endpar else {rest} endif");
+    let [idle, busy] =
+        [remember("IDLE", "if go then mode := BUSY endif"), remember("BUSY", "if ok then mode := IDLE endif")];
+    assert_eq!(held([&idle, &busy], "").len(), 2);
+    let leaving = remember("BUSY", "if ok then mode := IDLE elseif go then mode := DONE endif");
+    assert_eq!(held([&idle, &leaving], ""), [""; 0]);
 }

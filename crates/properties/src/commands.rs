@@ -141,11 +141,17 @@ fn explored(loaded: &Loaded, program: &Arc<program::Program>) -> usize {
 
 /// The charts of a model's rules, written down, read again, and held to the model.
 fn charts_of(loaded: &Loaded, source: &SourceFile) {
-    let found = chart::extract(&loaded.model, None, None);
+    let mut found = chart::extract(&loaded.model, None, None);
     if found.chart.machines.is_empty() {
         return;
     }
-    let text = chart::write(&found.chart);
+    extracted(&found.chart, source);
+    chart::nest(&loaded.model, &mut found);
+    extracted(&found.chart, source);
+}
+
+fn extracted(found: &Chart, source: &SourceFile) {
+    let text = chart::write(found);
     let parse = syntax::parse_chart(FileId(0), &text);
     let (chart, faults) = chart::read(FileId(0), &parse);
     assert!(!groundstate::has_errors(&faults), "the chart that is extracted is at fault: {text}");
@@ -154,7 +160,7 @@ fn charts_of(loaded: &Loaded, source: &SourceFile) {
     let faults = chart::check(&chart, &probed, &checked, &mut NoSolver);
     let errors: Vec<&Diagnostic> = faults.iter().filter(|fault| fault.severity == syntax::Severity::Error).collect();
     assert!(errors.is_empty(), "the chart that is extracted does not agree with its model: {errors:#?}\n{text}");
-    drawn(&found.chart);
+    drawn(found);
 }
 
 /// All of `chart`, and `generate cpp` of systems.

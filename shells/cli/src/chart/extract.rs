@@ -22,6 +22,9 @@ pub struct Arguments {
     /// The function that holds the control state. Default: the one that all actions of a rule depend on
     #[arg(long, value_name = "NAME")]
     control: Option<String>,
+    /// Draw no composite states
+    #[arg(long)]
+    flat: bool,
     /// The chart to write. Default: stdout
     #[arg(long, short, value_name = "FILE")]
     output: Option<PathBuf>,
@@ -39,6 +42,9 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
         return Err(Failure::usage(format!("the model has no rule `{rule}`")));
     }
     let mut found = chart::extract(&loaded.model, arguments.rule.as_deref(), arguments.control.as_deref());
+    if !arguments.flat {
+        chart::nest(&loaded.model, &mut found);
+    }
     let imports = arguments.model.file_name().map(|name| name.to_string_lossy().into_owned());
     found.chart.imports.extend(imports);
     for (rule, reason) in &found.others {
