@@ -112,7 +112,7 @@ impl Model {
 }
 
 /// What a property is for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum PropertyKind {
     /// Holds in every state.
     Invariant,

@@ -26,3 +26,4 @@ mod refinements;
 mod schema;
 mod start;
 mod transcripts;
+mod verdicts;

@@ -3,7 +3,7 @@
 //! In: a [`Report`] of a verification. Out: words and lines. The lines of a run are in `found`.
 
 use std::cell::RefCell;
-use std::collections::BTreeSet;
+use std::collections::BTreeMap;
 
 use explore::Unbounded;
 use machine::{Location, Show, Value};
@@ -24,8 +24,8 @@ pub struct Verdicts<'a> {
     pub sources: &'a Sources,
     /// Whether the search stopped because its time was up.
     pub timed_out: bool,
-    /// The checks that hold even if asynchronous elaborations take any time.
-    pub general: BTreeSet<Subject>,
+    /// The checks that hold by another search, and of what more it was.
+    pub elsewhere: BTreeMap<Subject, &'static str>,
     /// How runs are told, if not as steps of the program.
     pub story: Option<Story<'a>>,
     /// The initial state that was shown last.
@@ -46,7 +46,7 @@ impl std::fmt::Debug for Story<'_> {
 impl<'a> Verdicts<'a> {
     /// Describes the results of a search over a program.
     pub fn new(program: &'a Program, sources: &'a Sources, timed_out: bool) -> Self {
-        Verdicts { program, sources, timed_out, general: BTreeSet::new(), story: None, initial: RefCell::default() }
+        Verdicts { program, sources, timed_out, elsewhere: BTreeMap::new(), story: None, initial: RefCell::default() }
     }
 }
 
@@ -136,8 +136,8 @@ impl Verdicts<'_> {
 
     /// How a solver proved a check.
     pub fn proof(&self, subject: Subject, report: &Report) -> Option<String> {
-        if self.general.contains(&subject) {
-            return Some("for asynchronous elaborations of any length".to_string());
+        if let Some(more) = self.elsewhere.get(&subject) {
+            return Some((*more).to_string());
         }
         let how = match report.proofs.get(&subject)? {
             Proof::Induction(steps) => format!("k-induction, k = {steps}"),

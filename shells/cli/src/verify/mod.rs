@@ -295,17 +295,20 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
         let message = "--coverage does not know what fairness of agents rests on";
         return Err(Failure::usage_with_help(message, "leave it out, or the fairness"));
     }
-    let (general, watch) = match &system {
+    let (proved, watch) = match &system {
         Some(system) => {
             system::refuse(system, &asked, loaded.program.properties.len(), terminal.as_ref())?;
             system::about(shell, system)?;
             let sought = system::Sought { arguments, options: &options, agents };
             match system::general(shell, system, &sought, watch)? {
                 system::General::Decided(exit) => return Ok(exit),
-                system::General::Open(proved, watch) => (proved, watch),
+                system::General::Open(mut proved, mut watch) => {
+                    proved.extend(system::timing(shell, system, &sought, &mut watch, &proved, !assumed.is_empty())?);
+                    (proved, watch)
+                }
             }
         }
-        None => (Vec::new(), watch),
+        None => (system::Proved::new(), watch),
     };
     let again = arguments.vacuity.then(|| options.clone());
     let request = Request::of(&program, options).fair(agents).kept(arguments.checkpoint.is_some()).build();
@@ -347,10 +350,10 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     };
     for verdict in &mut report.verdicts {
         if matches!(verdict.outcome, Outcome::Unknown(_))
-            && general.contains(&system::check(&teller.words, verdict.subject))
+            && let Some(more) = proved.get(&system::check(&teller.words, verdict.subject))
         {
             verdict.outcome = Outcome::Holds;
-            teller.words.general.insert(verdict.subject);
+            teller.words.elsewhere.insert(verdict.subject, more);
         }
     }
     // Nobody wrote the rules of a model that is made of a chart.

@@ -2,7 +2,7 @@
 //!
 //! In: a chart. Out: the model to search; counterexamples told as what the tasks do, and written as scenarios of the ground model.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -137,7 +137,7 @@ pub enum General {
     /// Everything holds, or the user has had enough.
     Decided(Exit),
     /// These checks hold; the others are still to be decided.
-    Open(Vec<Check>, Watch),
+    Open(Proved, Watch),
 }
 
 /// LIMIT: states of the search in which asynchronous elaborations take any time. Where times vary little, there may be more of them
@@ -158,7 +158,7 @@ pub fn general(
         && arguments.disk.is_none()
         && arguments.bounded.depth.is_none();
     let Some(general) = system.general.as_ref().filter(|_| plain) else {
-        return Ok(General::Open(Vec::new(), watch));
+        return Ok(General::Open(Proved::new(), watch));
     };
     let Some((mut asked, beside, terminal)) = super::ask(shell, arguments, general)? else {
         return Ok(General::Decided(Exit::World));
@@ -178,10 +178,10 @@ pub fn general(
         left_out |= leave_out(&mut asked, own, &|kind| kind != PropertyKind::Invar);
         searched = search(&asked.program, &options, *agents, (&mut watch, until))?;
     }
-    let Searched::Complete(mut report) = searched else { return Ok(General::Open(Vec::new(), watch)) };
+    let Searched::Complete(mut report) = searched else { return Ok(General::Open(Proved::new(), watch)) };
     let words = Verdicts::new(&asked.program, &asked.sources, false);
     let hold = report.verdicts.iter().filter(|verdict| matches!(verdict.outcome, Outcome::Holds));
-    let proved: Vec<Check> = hold.map(|verdict| check(&words, verdict.subject)).collect();
+    let proved: Proved = hold.map(|verdict| (check(&words, verdict.subject), ANY_LENGTH)).collect();
     if proved.len() < report.verdicts.len() || left_out {
         watch.hide();
         return Ok(General::Open(proved, watch));
@@ -189,7 +189,7 @@ pub fn general(
     watch.done();
     report.unreachable.clear();
     if shell.talks() {
-        writeln!(shell.out(), "proved for asynchronous elaborations of any length")?;
+        writeln!(shell.out(), "proved {ANY_LENGTH}")?;
     }
     let teller = Teller::new(&asked.program, &asked.sources, false);
     teller.assumed(shell, &super::assumed(arguments, &beside))?;
@@ -205,6 +205,77 @@ fn leave_out(asked: &mut Overlay, own: usize, out: &dyn Fn(PropertyKind) -> bool
     properties.extend(asked.into_iter().filter(|property| !out(property.kind)));
     properties.len() < own + before
 }
+
+/// LIMIT: states of the search without what machines decide.
+const TIMING: u64 = 500_000;
+
+const ANY_LENGTH: &str = "for asynchronous elaborations of any length";
+
+/// Decides what holds of times, locks and channels, whatever machines decide: with that, there may be too many states. Takes a quarter of
+/// the time that is allowed.
+pub fn timing(
+    shell: &mut Shell,
+    system: &VerifiedSystem,
+    sought: &Sought<'_>,
+    watch: &mut Watch,
+    known: &Proved,
+    assumes: bool,
+) -> Result<Proved, Failure> {
+    let Sought { arguments, options, agents } = sought;
+    let plain = matches!((arguments.engine, arguments.storage), (Engine::Auto, Storage::Exact))
+        && arguments.checkpoint.is_none()
+        && arguments.disk.is_none()
+        && arguments.bounded.depth.is_none();
+    if system.machines().0.is_empty() || !plain {
+        return Ok(Proved::new());
+    }
+    let mut disk = shell.disk();
+    let root = disk.root(&arguments.model)?;
+    let Ok(bare) = groundstate::verified_system(root, &[], &|_| false, &mut disk) else { return Ok(Proved::new()) };
+    let until = arguments.bounded.time.map(|seconds| Instant::now() + Duration::from_secs(seconds) / 4);
+    // Inputs are those of machines.
+    let options = Options {
+        terminal: None,
+        bounds: Default::default(),
+        undefined: Default::default(),
+        max_states: options.max_states.min(TIMING),
+        ..(*options).clone()
+    };
+    let mut proved = Proved::new();
+    for (loaded, more) in bare.general.iter().map(|general| (general, ANY_LENGTH)).chain([(&bare.loaded, WHATEVER)]) {
+        let words = Verdicts::new(&loaded.program, &loaded.sources, false);
+        let properties = (0..loaded.program.properties.len()).map(Subject::Property);
+        let is_known = |subject: Subject| {
+            let check = check(&words, subject);
+            known.contains_key(&check) || proved.contains_key(&check)
+        };
+        if properties.into_iter().all(is_known) {
+            break;
+        }
+        // What is violated is told of the system with its data.
+        if let Searched::Complete(report) = search(&loaded.program, &options, *agents, (&mut *watch, until))? {
+            let hold = report.verdicts.iter().filter(|verdict| matches!(verdict.outcome, Outcome::Holds));
+            // Runs may end where an assumption leaves no step, so that something never comes.
+            let is_told = |subject: &Subject| match subject {
+                Subject::Property(index) => {
+                    !assumes || loaded.program.properties[*index].kind == PropertyKind::Invariant
+                }
+                _ => false,
+            };
+            let own = hold.map(|verdict| verdict.subject).filter(is_told);
+            for check in own.map(|subject| check(&words, subject)).collect::<Vec<Check>>() {
+                proved.entry(check).or_insert(more);
+            }
+        }
+    }
+    Ok(proved)
+}
+
+/// That of machines which are left out, none changes when tasks run.
+const WHATEVER: &str = "whatever the machines decide";
+
+/// Checks that hold by another search, and of what more it was.
+pub type Proved = BTreeMap<Check, &'static str>;
 
 /// A check, whatever its number among the properties: its kind and its name.
 pub type Check = (Option<PropertyKind>, String);

@@ -1,0 +1,91 @@
+//! Verdicts that rest on more than one search, or on more than one file.
+
+#![allow(clippy::disallowed_methods, reason = "a test runs the command on files")]
+
+use std::path::Path;
+use std::process::Command;
+
+/// The exit code, and what is said on stdout.
+fn said(folder: &Path, arguments: &[&str]) -> (Option<i32>, String) {
+    let output = Command::new(env!("CARGO_BIN_EXE_groundstate")).args(arguments).current_dir(folder).output();
+    let output = output.expect("it starts");
+    (output.status.code(), String::from_utf8_lossy(&output.stdout).to_string())
+}
+
+/// The lines that begin with a word.
+fn lines<'t>(text: &'t str, word: &str) -> Vec<&'t str> {
+    text.lines().filter(|line| line.starts_with(word)).collect()
+}
+
+#[test]
+fn what_is_drawn_is_decided_without_what_the_machines_decide() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples/press_cell");
+    let whole = ["verify", "PressCell.chart", "--data"];
+    // Some 150 states are enough for what is drawn, and too few for the data.
+    let (code, text) = said(&folder, &[&whole[..], &["--max-states", "1000"]].concat());
+    assert_eq!(code, Some(3), "{text}");
+    let own = |line: &&&str| line.contains(" inv_") || line.contains(" ctlSpec_");
+    let held = lines(&text, "holds");
+    assert!(held.iter().all(|line| line.ends_with(" (whatever the machines decide)")), "{text}");
+    assert!(held.len() > 10 && held.iter().all(|line| own(&line)), "{text}");
+    let open = lines(&text, "unknown");
+    assert!(open.len() > 10 && !open.iter().any(|line| own(&line)), "{text}");
+    // What an assumption leaves of the runs may end.
+    let (_, text) = said(&folder, &[&whole[..], &["--max-states", "1000", "--assume", "not curtain"]].concat());
+    assert!(lines(&text, "holds").iter().all(|line| line.contains(" inv_")), "{text}");
+    assert!(text.contains("unknown   ctlSpec_works"), "{text}");
+    // Too few for what is drawn, too.
+    let (_, text) = said(&folder, &[&whole[..], &["--max-states", "20"]].concat());
+    assert_eq!(lines(&text, "holds"), [""; 0], "{text}");
+}
+
+#[test]
+fn what_rests_on_a_file_with_errors_is_not_checked() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).expect("it can be written");
+    write(
+        "Pair.chart",
+        "chart Pair\nsystem pair\n\tcomponent one synchronous period 1 ms\n\t\twrit x 1 ms\n\tendcomponent\nendsystem\n",
+    );
+    write("Pair.verify.yaml", "invariants: [\"true\"]\n");
+    let (code, text) = said(folder.path(), &["check", "Pair.verify.yaml"]);
+    assert_eq!(code, Some(1), "{text}");
+    assert!(text.ends_with("Pair.verify.yaml: not checked: Pair.chart has errors\n"), "{text}");
+    // Those of a file are told once, and not taken for none where they are met again.
+    let (code, text) = said(folder.path(), &["check", "."]);
+    assert_eq!(code, Some(1), "{text}");
+    assert!(text.contains("Pair.verify.yaml: not checked: "), "{text}");
+    write("Lamp.asm", "asm Lamp\nimport Missing\nsignature:\ndefinitions:\nmain rule r_Main = skip\n");
+    write("Lamp.avalla", "scenario Lamp\nload Lamp.asm\nstep\n");
+    let (_, text) = said(folder.path(), &["check", "Lamp.avalla"]);
+    assert!(text.contains("Lamp.avalla: not checked: ") && !text.contains("no faults"), "{text}");
+}
+
+#[test]
+fn a_name_of_a_module_that_building_adds() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).expect("it can be written");
+    let chart = "chart Arm\nimport Turns\nsystem arm\n\ttick 1 ms\n\tsensor eye : Way\n\tactuator motor\n\tcomponent look synchronous period 10 ms\n\
+                 \t\telaborate see 2 ms\n\t\twrite seen 1 ms\n\tendcomponent\n\tcomponent go synchronous period 10 ms\n\t\tread seen 1 ms\n\
+                 \t\telaborate turn 2 ms\n\tendcomponent\n\tchannel seen : Way from look to go shared value\n\teye -> look\n\tgo -> motor\n";
+    write("Arm.chart", &format!("{chart}\twithin 40 ms from eye to motor\nendsystem\n"));
+    write(
+        "Turns.asm",
+        "module Turns\nimport StandardLibrary\nexport *\nsignature:\n\tenum domain Way = {SHORT | LONG}\ndefinitions:\n",
+    );
+    for command in [&["chart", "build", "Arm.chart"][..], &["verify", "Arm.chart"]] {
+        let output = Command::new(env!("CARGO_BIN_EXE_groundstate")).args(command).current_dir(folder.path()).output();
+        let output = output.expect("it starts");
+        let text = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(1), "{text}");
+        assert!(
+            text.contains("error[made-name]: an import declares `Way`, and so does `DataAges` of the library\n"),
+            "{text}"
+        );
+        assert_eq!(text.matches("error[").count(), 1, "{text}");
+    }
+    // Without a bound on an age nobody else needs the name.
+    write("Arm.chart", &format!("{chart}endsystem\n"));
+    let (code, text) = said(folder.path(), &["chart", "build", "Arm.chart"]);
+    assert_eq!(code, Some(0), "{text}");
+}
