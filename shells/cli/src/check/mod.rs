@@ -111,9 +111,14 @@ fn check_one(
     suite: &mut Suite,
 ) -> Result<(), Failure> {
     let root = shell.disk().root(path)?;
+    let own = root.name.clone();
     let Seen { faults, size, open } = look(shell, path, root, suite)?;
     let (mut errors, mut warnings) = (0, 0);
+    // What rests on a file with errors was not looked at.
+    let mut faulty: Vec<String> = Vec::new();
     for (sources, diagnostics) in faults {
+        let wrong = diagnostics.iter().filter(|found| found.severity == Severity::Error);
+        faulty.extend(wrong.map(|found| sources.file(found.primary.span.file).name.clone()));
         // A module with faults that several files import is reported once.
         let new: Vec<Diagnostic> = diagnostics.into_iter().filter(|found| seen.insert(key(&sources, found))).collect();
         let count = |severity| new.iter().filter(|diagnostic| diagnostic.severity == severity).count();
@@ -129,7 +134,11 @@ fn check_one(
         shell.note(&format!("{}: {open}", path.display()))?;
     }
     if shell.talks() {
+        let is_beside = !matches!(Kind::of(path), Some(Kind::Model | Kind::Chart) | None);
+        let other = faulty.first().filter(|_| !faulty.contains(&own) && (errors == 0 || is_beside));
+        let open = open.or_else(|| other.map(|other| format!("not checked: {other} has errors")));
         let verdict = match (errors, warnings, open) {
+            (_, _, Some(open)) if other.is_some() => open,
             (0, 0, Some(open)) => open,
             (0, 0, None) => "no faults".to_string(),
             (0, _, _) => plural(warnings, "warning"),
