@@ -37,7 +37,7 @@ mod write;
 pub mod xml;
 
 pub use build::{
-    Built, Known, Lengths, Reduced, Unknown, build, kept, library, reduced, unbuilt, unverified, verifiable,
+    Built, Known, Lengths, Reduced, Unknown, build, clashes, kept, library, reduced, unbuilt, unverified, verifiable,
     verified,
 };
 pub use chart::{

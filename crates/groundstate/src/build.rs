@@ -53,6 +53,9 @@ fn built(
         }
     };
     let mut unbuilt = chart::unbuilt(chart, &known);
+    if unbuilt.is_empty() {
+        unbuilt = chart::clashes(chart, &known, &format!("{folder}Imports.asm"), loader);
+    }
     unbuilt.extend(chart::stateless(chart));
     if !unbuilt.is_empty() {
         faults.push((sources.clone(), unbuilt));

@@ -114,7 +114,10 @@ impl Verifiable {
             Ok(known) => known,
             Err(unknown) => return Err(vec![(sources, unknown.imports), (unknown.checked.sources, unknown.modules)]),
         };
-        let unverified = chart::unverified(&chart, &known);
+        let mut unverified = chart::unverified(&chart, &known);
+        if unverified.is_empty() {
+            unverified = chart::clashes(&chart, &known, &format!("{folder}Imports.asm"), loader);
+        }
         if has_errors(&unverified) {
             return Err(vec![(sources, unverified)]);
         }

@@ -106,6 +106,11 @@ impl Known {
         }
     }
 
+    /// All of them.
+    pub(super) fn all(&self) -> BTreeSet<String> {
+        [&self.terms, &self.rules, &self.domains].into_iter().flatten().cloned().collect()
+    }
+
     /// The names of a model, including those of its imports.
     pub fn of(model: &Model) -> Known {
         let mut known = Known::default();

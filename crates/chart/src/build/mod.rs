@@ -5,6 +5,7 @@
 //! declaration and definition in the file stays as it is, and what is missing is added.
 
 mod ages;
+mod clash;
 mod figures;
 mod known;
 mod merge;
@@ -15,6 +16,7 @@ mod spelling;
 pub(crate) mod system;
 mod table;
 
+pub use clash::clashes;
 pub use figures::{Figure, figures};
 pub(crate) use known::OWNED;
 pub use known::{Known, Unknown};

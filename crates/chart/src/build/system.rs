@@ -28,6 +28,11 @@ pub(super) fn unbuilt(system: &System, known: &Known) -> Vec<Diagnostic> {
     }
 }
 
+/// The modules of the library that building adds to a chart's imports.
+pub(super) fn added(chart: &Chart, known: &Known) -> Vec<String> {
+    chart.system.as_ref().map(|system| parts(chart, system, known).imports).unwrap_or_default()
+}
+
 /// Names that components' machines make, and that something else has.
 fn doubled(system: &System, known: &Known) -> Vec<Diagnostic> {
     let mut faults = Vec::new();

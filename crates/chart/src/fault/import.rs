@@ -45,3 +45,10 @@ pub(crate) fn no_model(span: Span, found: &Diagnostic, chart: Option<&str>) -> D
         None => fault.with_help("correct the path, which starts at the folder of the chart; `.asm` may be left out"),
     }
 }
+
+/// A module that is added declares a name that is there.
+pub(crate) fn clash(span: Span, name: &str, module: &str) -> Diagnostic {
+    Diagnostic::error("made-name", span, format!("an import declares `{name}`, and so does `{module}` of the library"))
+        .here(format!("the times of this system need `{module}`"))
+        .with_help(format!("rename your `{name}`"))
+}

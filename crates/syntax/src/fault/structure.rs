@@ -359,6 +359,9 @@ pub(crate) fn expected_shape(found: Found<'_>, wanted: &str) -> Diagnostic {
         .here("this starts none, and the text up to the next one is skipped")
         .with_help(match wanted.starts_with("a phase") {
             true => "write each phase on a line, such as `read frames 0.5 ms`; several names have commas between them",
+            false if wanted.starts_with("a component") => {
+                "start each with its word: `component`, `channel`, `sensor`, `actuator`, `within`; a connection is `SENSOR -> COMPONENT`"
+            }
             false => "start each with its word: `state`, `guard`, `action`, `instance`; a path with a name and `->`",
         })
 }
