@@ -2,7 +2,7 @@
 //!
 //! In: what a recording says of its tasks before their first event, and the model's initial state. Out: the first thing that the two
 //! say otherwise. A program whose periods are others may well record events that the model could have, for a while: its
-//! verdict would be one about another system. What a recording leaves out is not held against it here.
+//! verdict would be one about another system. What a recording leaves out is not held against it; it is [`unsaid`].
 
 use std::collections::BTreeSet;
 
@@ -19,6 +19,22 @@ pub fn contradiction(head: &Recording, machine: &Machine, vocabulary: &Vocabular
         timing(head.tick_ns, track, component, machine, vocabulary)
             .or_else(|| awaited(track, component, machine, vocabulary))
     })
+}
+
+/// What the model says of tasks and the recording does not, each as a phrase.
+pub fn unsaid(head: &Recording, machine: &Machine, vocabulary: &Vocabulary) -> Vec<String> {
+    let of_track = |track: &Track| {
+        let component = &vocabulary.components[vocabulary.component_named(&track.task)?];
+        let period = vocabulary.get(machine, Named::Period, std::slice::from_ref(&component.task));
+        let has_period = matches!(period, Value::Integer(_));
+        let wakes = vocabulary.wakes(machine, component);
+        match (track.rhythm, &track.awaits) {
+            (None, _) if has_period => Some(format!("which period {} has", track.task)),
+            (_, None) if wakes.is_some() => Some(format!("what {} awaits", track.task)),
+            _ => None,
+        }
+    };
+    head.tracks.iter().filter_map(of_track).collect()
 }
 
 /// Period, offset and deadline.

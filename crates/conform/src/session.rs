@@ -16,7 +16,7 @@ use crate::Verdict;
 use crate::accesses::{self, Access};
 use crate::bounds::{self, Modelled};
 use crate::functions::Functions;
-use crate::head::contradiction;
+use crate::head::{contradiction, unsaid};
 use crate::steps::Steps;
 use crate::vocabulary::Vocabulary;
 use crate::{timed, untimed};
@@ -162,6 +162,11 @@ impl Session {
     /// How often each task accessed its channels in the recording, and how often it did not.
     pub fn accesses(&self, recording: &Recording) -> Vec<Access> {
         accesses::accesses(recording, &self.initial.0, &self.initial.1)
+    }
+
+    /// What the model says of its tasks, such as what one awaits, and the recording does not; each as a phrase.
+    pub fn unsaid(&self, recording: &Recording) -> Vec<String> {
+        unsaid(recording, &self.initial.0, &self.initial.1)
     }
 
     /// What was not compared of the bounds that recording and model state. The recording states its own at its end.

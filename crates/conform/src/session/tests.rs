@@ -134,6 +134,33 @@ fn what_the_head_says_of_tasks_is_so_in_the_model() {
 }
 
 #[test]
+fn what_the_head_leaves_out_is_named() {
+    let mut head = recorded_for("modelled", 1);
+    let unsaid = |head: &Recording| {
+        let (sources, model, program) = model();
+        Session::new(sources, model, program, Limits::default(), head, false).expect("it fits").unsaid(head)
+    };
+    for track in &mut head.tracks {
+        let period_ns = 100 * TICK_NS;
+        (track.rhythm, track.awaits) = match track.task.as_str() {
+            "camera" => (Some(Rhythm { period_ns, offset_ns: 0, deadline_ns: period_ns }), None),
+            "visual_servoing" => (None, recording::Awaited::read("camera_to_vs")),
+            _ => (track.rhythm, None),
+        };
+    }
+    let others: Vec<String> = unsaid(&head);
+    assert!(others.iter().all(|what| !what.contains("camera") && !what.contains("visual_servoing")), "{others:?}");
+    for track in &mut head.tracks {
+        (track.rhythm, track.awaits) = (None, None);
+    }
+    let all = unsaid(&head);
+    assert!(all.contains(&"which period camera has".to_string()), "{all:?}");
+    assert!(all.contains(&"what visual_servoing awaits".to_string()), "{all:?}");
+    // The robot awaits nothing.
+    assert!(!all.contains(&"what robot awaits".to_string()), "{all:?}");
+}
+
+#[test]
 fn the_models_own_run_conforms() {
     let recording = recorded("modelled");
     assert!(recording.events() > 50, "{} events", recording.events());

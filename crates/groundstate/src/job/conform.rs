@@ -146,6 +146,8 @@ pub struct Conformed {
     pub accesses: Vec<Access>,
     /// What was not compared of the bounds that the chart states.
     pub bounds: Open,
+    /// What the model says of its tasks and the recording does not, each as a phrase.
+    pub unsaid: Vec<String>,
 }
 
 impl Conformed {
@@ -156,6 +158,7 @@ impl Conformed {
             decisions: session.decisions(),
             accesses: session.accesses(&recording),
             bounds: session.bounds(&recording)?,
+            unsaid: session.unsaid(&recording),
             recording,
             verdict,
         })

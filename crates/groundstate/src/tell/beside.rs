@@ -38,6 +38,8 @@ pub fn beside(conformed: &Conformed) -> Vec<String> {
             format!("the model bounds {bound}; the recording says nothing of it, and it is not looked at")
         }),
     );
+    let not_said = |what: &String| format!("the recording does not say {what}: not compared with the model");
+    told.extend(conformed.unsaid.iter().map(not_said));
     // Tick by tick, a step of the model that has no event in the recording is a difference.
     if conformed.way == Way::Untimed {
         told.extend(silent(recording));
