@@ -5,6 +5,7 @@
 //! rule and function has its parameters when the first body is checked, so the order of declarations does not matter.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use syntax::ast::{self, AstNode};
 use syntax::{FileId, Span, SyntaxKind, SyntaxToken};
@@ -113,7 +114,7 @@ impl Declare<'_> {
         if id != Domains::ERROR {
             self.model.uses.declare(span, Referent::Domain(id));
         }
-        match self.names.domains.get(&name) {
+        match self.names.domains.get(name.as_str()) {
             // A type variable of an imported library is not an obstacle to a domain of that name.
             Some(first) if *first != Domains::ANY && !matches!(self.model.domains.kind(*first), DomainKind::Any) => {
                 let first = self.model.domains.get(*first).span;
@@ -121,7 +122,7 @@ impl Declare<'_> {
                 Some(id)
             }
             _ => {
-                self.names.domains.insert(name, id);
+                self.names.domains.insert(name.into(), id);
                 Some(id)
             }
         }
@@ -151,7 +152,7 @@ impl Declare<'_> {
             if let DomainKind::Enum { literals } = &mut self.model.domains.get_mut(id).kind {
                 literals.push(name.clone());
                 let place = literals.len() as u32 - 1;
-                self.names.literals.insert(name.clone(), (id, place));
+                self.names.literals.insert(name.as_str().into(), (id, place));
                 self.model.uses.declare(span, Referent::Literal(id, place));
                 self.literals.insert(name, span);
             }
@@ -205,7 +206,7 @@ impl Declare<'_> {
         }
         let id = self.model.add_function(function);
         self.model.uses.declare(span, Referent::Function(id));
-        self.names.functions.entry(token.text().to_string()).or_default().push(id);
+        Arc::make_mut(self.names.functions.entry(token.text().into()).or_default()).push(id);
     }
 
     fn rule(&mut self, decl: &ast::RuleDecl) -> Option<RuleId> {
@@ -239,7 +240,7 @@ impl Declare<'_> {
             let other = self.model.rule(**other);
             other.span.file == self.file && domains(other) == mine
         };
-        let known = self.names.rules.entry(token.text().to_string()).or_default();
+        let known = Arc::make_mut(self.names.rules.entry(token.text().into()).or_default());
         if let Some(first) = known.iter().find(same).copied() {
             let place = self.model.rule(first).span;
             let signature = self.site().rule_signature(first);

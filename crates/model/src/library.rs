@@ -45,8 +45,13 @@ pub(crate) fn is_all_text(path: &str) -> bool {
 
 /// Names of functions and domains that a copy of a library declares and the built-in one does not, in order.
 pub(crate) fn missing(copy: &SourceFile, built_in: &SourceFile) -> Vec<String> {
-    let known: BTreeSet<String> = declared_names(built_in).into_iter().collect();
-    let mut names: Vec<String> = declared_names(copy).into_iter().filter(|name| !known.contains(name)).collect();
+    if copy.text == built_in.text {
+        return Vec::new();
+    }
+    // The built-in text has each declaration on a line of its own, so it need not be parsed for its names.
+    let known: BTreeSet<&str> = built_in.text.lines().filter_map(declared_name).map(str::trim).collect();
+    let mut names: Vec<String> =
+        declared_names(copy).into_iter().filter(|name| !known.contains(name.as_str())).collect();
     let mut seen = BTreeSet::new();
     names.retain(|name| seen.insert(name.clone()));
     names
@@ -113,10 +118,22 @@ mod tests {
         let file = |text: &str| SourceFile::new("a/StandardLibrary.asm", text);
         let built_in = find("StandardLibrary").unwrap();
         assert!(missing(&built_in, &built_in).is_empty());
+        let renamed = SourceFile::new("a/StandardLibrary.asm", format!("{}\n", built_in.text));
+        assert!(missing(&renamed, &built_in).is_empty());
         let copy = file(
             "module StandardLibrary export * signature: basic domain Integer static plus: Integer -> Integer static two: Integer static two: Integer -> Integer definitions: function two = 2",
         );
         assert_eq!(missing(&copy, &built_in), ["two"]);
+    }
+
+    #[test]
+    fn the_lines_of_a_library_declare_what_its_tree_declares() {
+        for name in libraries().filter(|name| !is_all_text(name)) {
+            let library = find(name).unwrap();
+            let of_lines: BTreeSet<&str> = library.text.lines().filter_map(declared_name).map(str::trim).collect();
+            let of_tree = declared_names(&library);
+            assert_eq!(of_lines, of_tree.iter().map(String::as_str).collect(), "{name}");
+        }
     }
 
     #[test]

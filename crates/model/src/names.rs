@@ -4,19 +4,21 @@
 //! overloads), rules (all overloads). INVARIANT: overloads are in the order of declaration, imported ones first; of
 //! two functions with the same name and parameters, the first one counts.
 
+use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
 
 use crate::declaration::Function;
 use crate::id::DomainId;
 use crate::id::{FunctionId, RuleId};
 
-/// What the names of a file mean.
+/// What the names of a file mean. Imported names are those of the file that declares them, not copies of their texts.
 #[derive(Debug, Clone, Default)]
 pub struct Names {
-    pub(crate) domains: BTreeMap<String, DomainId>,
-    pub(crate) literals: BTreeMap<String, (DomainId, u32)>,
-    pub(crate) functions: BTreeMap<String, Vec<FunctionId>>,
-    pub(crate) rules: BTreeMap<String, Vec<RuleId>>,
+    pub(crate) domains: BTreeMap<Arc<str>, DomainId>,
+    pub(crate) literals: BTreeMap<Arc<str>, (DomainId, u32)>,
+    pub(crate) functions: BTreeMap<Arc<str>, Arc<Vec<FunctionId>>>,
+    pub(crate) rules: BTreeMap<Arc<str>, Arc<Vec<RuleId>>>,
     /// A reported fault may have hidden names (an import that failed, a broken signature), so a name that is not
     /// here is no fault of its own.
     pub(crate) incomplete: bool,
@@ -52,32 +54,32 @@ impl Names {
 
     /// All functions of that name.
     pub fn functions(&self, name: &str) -> &[FunctionId] {
-        self.functions.get(name).map_or(&[], Vec::as_slice)
+        self.functions.get(name).map_or(&[], |ids| ids.as_slice())
     }
 
     /// All rules of that name.
     pub fn rules(&self, name: &str) -> &[RuleId] {
-        self.rules.get(name).map_or(&[], Vec::as_slice)
+        self.rules.get(name).map_or(&[], |ids| ids.as_slice())
     }
 
     /// All domains by name.
     pub fn all_domains(&self) -> impl Iterator<Item = (&str, DomainId)> {
-        self.domains.iter().map(|(name, id)| (name.as_str(), *id))
+        self.domains.iter().map(|(name, id)| (&**name, *id))
     }
 
     /// All enum literals by name.
     pub fn all_literals(&self) -> impl Iterator<Item = (&str, DomainId)> {
-        self.literals.iter().map(|(name, (id, _))| (name.as_str(), *id))
+        self.literals.iter().map(|(name, (id, _))| (&**name, *id))
     }
 
     /// All functions by name, the overloads of one after the other.
     pub fn all_functions(&self) -> impl Iterator<Item = (&str, FunctionId)> {
-        self.functions.iter().flat_map(|(name, ids)| ids.iter().map(move |id| (name.as_str(), *id)))
+        self.functions.iter().flat_map(|(name, ids)| ids.iter().map(move |id| (&**name, *id)))
     }
 
     /// All rules by name, the overloads of one after the other.
     pub fn all_rules(&self) -> impl Iterator<Item = (&str, RuleId)> {
-        self.rules.iter().flat_map(|(name, ids)| ids.iter().map(move |id| (name.as_str(), *id)))
+        self.rules.iter().flat_map(|(name, ids)| ids.iter().map(move |id| (&**name, *id)))
     }
 
     /// A reported fault may have hidden names, so a name that is not here may be there all the same.
@@ -91,48 +93,67 @@ impl Names {
     }
 
     /// Only the selected names, and the literals of the enum domains among them.
-    pub(crate) fn select(&self, selection: &Selection) -> Names {
-        let Selection::Only(_) = selection else { return self.clone() };
+    pub(crate) fn select(&self, selection: &Selection) -> Cow<'_, Names> {
+        let Selection::Only(_) = selection else { return Cow::Borrowed(self) };
         let domains = keep(&self.domains, selection);
         let of_kept = |literal: &(DomainId, u32)| domains.values().any(|domain| *domain == literal.0);
         let literals = self.literals.iter().filter(|(_, literal)| of_kept(literal));
-        Names {
-            literals: literals.map(|(name, literal)| (name.clone(), *literal)).collect(),
+        Cow::Owned(Names {
+            literals: literals.map(|(name, literal)| (Arc::clone(name), *literal)).collect(),
             domains,
             functions: keep(&self.functions, selection),
             rules: keep(&self.rules, selection),
             incomplete: self.incomplete,
-        }
+        })
+    }
+
+    fn is_empty(&self) -> bool {
+        let Names { domains, literals, functions, rules, incomplete: _ } = self;
+        domains.is_empty() && literals.is_empty() && functions.is_empty() && rules.is_empty()
     }
 
     /// Adds what an import brings. `table` is the model's functions.
     pub(crate) fn import(&mut self, other: &Names, table: &[Function]) {
         self.incomplete |= other.incomplete;
+        if self.is_empty() {
+            *self = Names { incomplete: self.incomplete, ..other.clone() };
+            return;
+        }
         for (name, domain) in &other.domains {
-            self.domains.entry(name.clone()).or_insert(*domain);
+            self.domains.entry(Arc::clone(name)).or_insert(*domain);
         }
         for (name, literal) in &other.literals {
-            self.literals.entry(name.clone()).or_insert(*literal);
+            self.literals.entry(Arc::clone(name)).or_insert(*literal);
         }
         for (name, functions) in &other.functions {
             let Some(known) = self.functions.get_mut(name) else {
-                self.functions.insert(name.clone(), functions.clone());
+                self.functions.insert(Arc::clone(name), Arc::clone(functions));
                 continue;
             };
-            for id in functions {
+            for id in functions.iter() {
                 let parameters = &table[id.0 as usize].parameters;
                 if !known.iter().any(|other| table[other.0 as usize].parameters == *parameters) {
-                    known.push(*id);
+                    Arc::make_mut(known).push(*id);
                 }
             }
         }
         for (name, rules) in &other.rules {
-            let known = self.rules.entry(name.clone()).or_default();
-            known.extend(rules.iter().filter(|id| !known.contains(id)).copied().collect::<Vec<_>>());
+            let Some(known) = self.rules.get_mut(name) else {
+                self.rules.insert(Arc::clone(name), Arc::clone(rules));
+                continue;
+            };
+            let more: Vec<RuleId> = rules.iter().filter(|id| !known.contains(id)).copied().collect();
+            if !more.is_empty() {
+                Arc::make_mut(known).extend(more);
+            }
         }
     }
 }
 
-fn keep<V: Clone>(table: &BTreeMap<String, V>, selection: &Selection) -> BTreeMap<String, V> {
-    table.iter().filter(|(name, _)| selection.has(name)).map(|(name, value)| (name.clone(), value.clone())).collect()
+fn keep<V: Clone>(table: &BTreeMap<Arc<str>, V>, selection: &Selection) -> BTreeMap<Arc<str>, V> {
+    table
+        .iter()
+        .filter(|(name, _)| selection.has(name))
+        .map(|(name, value)| (Arc::clone(name), value.clone()))
+        .collect()
 }

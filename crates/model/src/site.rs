@@ -147,7 +147,7 @@ impl Site<'_> {
         }
         let help = match self.names.literal(name) {
             Some((domain, _)) => format!("`{name}` is a literal of the enum domain `{}`", self.display(domain)),
-            None => did_you_mean(name, self.names.domains.keys().map(String::as_str), || {
+            None => did_you_mean(name, self.names.domains.keys().map(|name| &**name), || {
                 self.hidden(name, |model, name| {
                     model
                         .domains
@@ -165,7 +165,7 @@ impl Site<'_> {
 
     /// A domain that is not imported by name, but that a visible function is declared with.
     fn domain_in_signatures(&self, name: &str) -> Option<DomainId> {
-        let functions = self.names.functions.values().flatten().map(|id| self.model.function(*id));
+        let functions = self.names.functions.values().flat_map(|ids| ids.iter()).map(|id| self.model.function(*id));
         let mut domains = functions.flat_map(|function| function.parameters.iter().chain([&function.codomain]));
         domains.find(|domain| self.model.domains.get(**domain).name.as_deref() == Some(name)).copied()
     }
@@ -192,9 +192,9 @@ impl Site<'_> {
         let help = if variables.contains(&variable.as_str()) {
             format!("did you mean the variable `{variable}`?")
         } else {
-            did_you_mean(name, self.names.functions.keys().map(String::as_str), || {
+            did_you_mean(name, self.names.functions.keys().map(|name| &**name), || {
                 if let Some(other) =
-                    nearest(name, self.names.literals.keys().chain(self.names.domains.keys()).map(String::as_str))
+                    nearest(name, self.names.literals.keys().chain(self.names.domains.keys()).map(|name| &**name))
                 {
                     return format!("did you mean `{other}`?");
                 }
@@ -212,7 +212,7 @@ impl Site<'_> {
         if self.names.incomplete {
             return;
         }
-        let help = did_you_mean(name, self.names.literals.keys().map(String::as_str), || {
+        let help = did_you_mean(name, self.names.literals.keys().map(|name| &**name), || {
             let of = |(_, domain): (DomainId, &Domain)| match &domain.kind {
                 DomainKind::Enum { literals } if literals.iter().any(|literal| literal == name) => domain.name.clone(),
                 _ => None,
@@ -233,7 +233,7 @@ impl Site<'_> {
             return;
         }
         let (name, span) = (token.text(), self.token_span(token));
-        let help = did_you_mean(name, self.names.rules.keys().map(String::as_str), || {
+        let help = did_you_mean(name, self.names.rules.keys().map(|name| &**name), || {
             self.hidden(name, |model, name| model.rules.iter().find(|r| r.name == name).map(|r| r.span)).unwrap_or_else(
                 || format!("declare it in the definitions: `rule {name} = …`, or import the file that does"),
             )

@@ -18,6 +18,7 @@ mod term;
 mod update;
 
 use std::collections::BTreeSet;
+use std::sync::Arc;
 
 use syntax::ast::{self, AstNode};
 use syntax::{FileId, SourceFile, Sources, Span, Stop};
@@ -106,7 +107,7 @@ struct Checker<'a> {
     model: Model,
     faults: Faults,
     /// What each checked unit exports; none without an export clause.
-    exported: Vec<Option<Names>>,
+    exported: Vec<Option<Arc<Names>>>,
     defined: Defined,
     /// Parameters of macro rules that are locations.
     updated: UpdatedParameters,
@@ -122,6 +123,7 @@ impl Checker<'_> {
         self.report_file_name(unit);
         let imported = self.imported(unit);
         let (names, rules) = declare::declare(unit, imported, &mut self.model, &mut self.faults);
+        let names = Arc::new(names);
         let exported = self.exported_by(unit, &names);
         self.exported.push(exported);
         self.definitions(unit, &names, &rules);
@@ -136,7 +138,7 @@ impl Checker<'_> {
         unit: &Unit,
         inits: Vec<crate::model::Init>,
         default_init: Option<usize>,
-        names: Names,
+        names: Arc<Names>,
         rules: &[(ast::RuleDecl, RuleId)],
     ) {
         let model = &mut self.model;
@@ -146,7 +148,7 @@ impl Checker<'_> {
         model.name = name.map(|token| token.text().to_string()).unwrap_or_default();
         model.inits = inits;
         model.default_init = default_init;
-        model.names = names;
+        model.names = Arc::unwrap_or_clone(names);
         let main = unit.tree.main_rule().and_then(|main| main.rule());
         model.main = main.and_then(|main| rules.iter().find(|(decl, _)| *decl == main)).map(|(_, id)| *id);
         if let Some(id) = model.main {
@@ -204,7 +206,7 @@ impl Checker<'_> {
                 && !exported.incomplete
             {
                 let all = exported.functions.keys().chain(exported.domains.keys()).chain(exported.rules.keys());
-                let suggestion = nearest(name, all.map(String::as_str));
+                let suggestion = nearest(name, all.map(|name| &**name));
                 let span = Span::new(unit.file, token.text_range());
                 self.faults.push(fault::import::not_exported(span, name, &path, suggestion));
             }
@@ -216,17 +218,17 @@ impl Checker<'_> {
         Selection::Only(selected)
     }
 
-    fn exported_by(&mut self, unit: &Unit, names: &Names) -> Option<Names> {
+    fn exported_by(&mut self, unit: &Unit, names: &Arc<Names>) -> Option<Arc<Names>> {
         let export = unit.tree.export()?;
         if export.is_all() {
-            return Some(names.clone());
+            return Some(Arc::clone(names));
         }
         let mut selected = BTreeSet::new();
         for token in export.names().filter_map(|name| name.token()) {
             let name = token.text();
             if !names.has(name) && !names.incomplete {
                 let all = names.functions.keys().chain(names.domains.keys()).chain(names.rules.keys());
-                let help = crate::suggest::did_you_mean(name, all.map(String::as_str), || {
+                let help = crate::suggest::did_you_mean(name, all.map(|name| &**name), || {
                     "declare it, or remove it from the list".to_string()
                 });
                 let span = Span::new(unit.file, token.text_range());
@@ -235,7 +237,7 @@ impl Checker<'_> {
             selected.insert(name.to_string());
             self.model.uses.add_all(Span::new(unit.file, token.text_range()), name, names);
         }
-        Some(names.select(&Selection::Only(selected)))
+        Some(Arc::new(names.select(&Selection::Only(selected)).into_owned()))
     }
 
     fn definitions(&mut self, unit: &Unit, names: &Names, rules: &[(ast::RuleDecl, RuleId)]) {

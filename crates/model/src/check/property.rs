@@ -91,7 +91,7 @@ fn report_over(site: &mut Site<'_>, invariant: &ast::Invariant) {
             continue;
         }
         let all = names.functions.keys().chain(names.domains.keys()).chain(names.rules.keys());
-        let help = did_you_mean(name, all.map(String::as_str), || "remove it from the list behind `over`".to_string());
+        let help = did_you_mean(name, all.map(|name| &**name), || "remove it from the list behind `over`".to_string());
         site.faults.push(fault::property::over_unknown(span, name, help));
     }
 }

@@ -168,7 +168,7 @@ impl Body<'_> {
             && let Some(name) = written.name().filter(|_| written.arguments().is_none())
         {
             let name = name.text();
-            let known = self.site.names.rules.keys().any(|known| known == &format!("r_{name}"));
+            let known = self.site.names.rules.contains_key(format!("r_{name}").as_str());
             self.site.faults.amend(before, |fault| fault::rule::not_called_by_rule_name(fault, name, known));
         }
         let arguments: Vec<Term> =
