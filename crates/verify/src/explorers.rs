@@ -70,13 +70,37 @@ impl Maker {
     }
 }
 
-/// The initial states, up to interchangeable elements.
-pub(crate) fn representatives(explorer: &mut Explorer, orbits: Option<&Orbits>) -> Vec<u64> {
-    let mut starts = explorer.initial().words().to_vec();
-    if let Some(orbits) = orbits {
-        explorer.normalise(orbits, &mut starts);
+/// The words of initial states, one state after the other. There may be a great many, so those of an explorer are not copied.
+#[derive(Debug)]
+pub(crate) enum Initial {
+    /// All of them.
+    All(Arc<Starts>),
+    /// Others.
+    Only(Vec<u64>),
+}
+
+impl Initial {
+    /// No states.
+    pub(crate) const NONE: Initial = Initial::Only(Vec::new());
+}
+
+impl std::ops::Deref for Initial {
+    type Target = [u64];
+
+    fn deref(&self) -> &[u64] {
+        match self {
+            Initial::All(starts) => starts.words(),
+            Initial::Only(words) => words,
+        }
     }
-    starts
+}
+
+/// The initial states, up to interchangeable elements.
+pub(crate) fn representatives(explorer: &mut Explorer, orbits: Option<&Orbits>) -> Initial {
+    let Some(orbits) = orbits else { return Initial::All(explorer.starts()) };
+    let mut starts = explorer.initial().words().to_vec();
+    explorer.normalise(orbits, &mut starts);
+    Initial::Only(starts)
 }
 
 /// Repeats a search, each time with room for what did not fit before.

@@ -157,6 +157,7 @@ impl Explorer {
                     starts.push(&words, branches);
                     Ok(ControlFlow::Continue(()))
                 })?;
+                starts.close();
                 Arc::new(starts)
             }
         };

@@ -65,6 +65,11 @@ impl Starts {
         self.words.extend_from_slice(words);
     }
 
+    /// All are there: gives back the room for more.
+    pub(crate) fn close(&mut self) {
+        self.words.shrink_to_fit();
+    }
+
     /// How many there are.
     pub fn len(&self) -> usize {
         self.words.len() / self.width

@@ -22,6 +22,9 @@ use crate::storage::Storage;
 /// a busy machine; the steps of a state take one to twenty.
 const ALONE: u64 = 64;
 
+/// How many initial states are handed out at a time.
+const BATCH: usize = 1 << 14;
+
 /// What all workers share besides their messages.
 pub(crate) struct Crew<'a> {
     pub plan: &'a Plan,
@@ -85,8 +88,17 @@ impl Crew<'_> {
     ) -> Option<Stop> {
         let (count, words) = (shards.len(), explorer.words());
         let mail: Mail = (0..count).map(|_| (0..count).map(|_| Mutex::default()).collect()).collect();
-        for item in starts.chunks_exact(item) {
-            lock(&mail[owner(&item[..words], count)][0]).extend_from_slice(item);
+        let places: Places = (0..count).map(|_| (0..count).map(|_| Mutex::default()).collect()).collect();
+        // Some at a time: there may be a great many, and they are in the tables soon.
+        for some in starts.chunks(item * BATCH) {
+            for one in some.chunks_exact(item) {
+                lock(&mail[owner(&one[..words], count)][0]).extend_from_slice(one);
+            }
+            for (index, shard) in shards.iter_mut().enumerate() {
+                let (mail, places) = (&mut *lock(&mail[index][0]), &mut *lock(&places[0][index]));
+                shard.take_in(explorer, self.plan, mail, false, places);
+                mail.clear();
+            }
         }
         if let Some(edges) = shards[0].edges.as_mut().filter(|_| !starts.is_empty()) {
             edges.begin(starts.chunks_exact(item).map(|item| owner(&item[..words], count)));
@@ -95,7 +107,7 @@ impl Crew<'_> {
             plan: self.plan,
             shards: shards.iter_mut().map(Mutex::new).collect(),
             mail,
-            places: (0..count).map(|_| (0..count).map(|_| Mutex::default()).collect()).collect(),
+            places,
             barrier: Barrier::new(count),
             board: Mutex::new(Board {
                 reports: vec![Tally::default(); count],

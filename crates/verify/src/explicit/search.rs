@@ -23,7 +23,7 @@ use crate::explicit::edges::{Edges, OWNERS};
 use crate::explicit::shard::{Shard, note};
 use crate::explicit::tally::{Decision, Tally};
 use crate::explicit::ways::ways;
-use crate::explorers::{Maker, representatives};
+use crate::explorers::{Initial, Maker, representatives};
 use crate::heed::Heed;
 use crate::partial_order::{Reduction, Unreduced, reduction};
 use crate::plan::Plan;
@@ -91,7 +91,7 @@ impl Search {
                 (Some(begun), _) => begun,
                 (None, Some(Resumed { past: before, maker, explorer, shards, unreduced })) => {
                     past = before;
-                    Begun { maker, explorer, shards, unreduced, starts: Vec::new() }
+                    Begun { maker, explorer, shards, unreduced, starts: Initial::NONE }
                 }
                 (None, None) => begun(program, &plan, keeper.is_some(), &mut past, &mut symmetry)?,
             };
@@ -111,7 +111,7 @@ impl Search {
             }
             if let Some(rooms) = rooms {
                 past.widening.settle(rooms);
-                anew = Begun { maker, explorer, shards, unreduced, starts: Vec::new() }.anew(&plan, &past.widening);
+                anew = Begun { maker, explorer, shards, unreduced, starts: Initial::NONE }.anew(&plan, &past.widening);
                 continue;
             }
             if let Some(span) = ordered(&shards)
@@ -200,7 +200,7 @@ struct Begun {
     shards: Vec<Shard>,
     unreduced: Option<Unreduced>,
     /// The states that it begins with.
-    starts: Vec<u64>,
+    starts: Initial,
 }
 
 /// A search at its beginning, with its initial states.
@@ -317,7 +317,7 @@ fn search<'k>(
     maker: &Maker,
     explorer: &mut Explorer,
     shards: &mut [Shard],
-    mut starts: Vec<u64>,
+    mut starts: Initial,
     plan: &Plan,
     (mut kept, mut counts): (Option<(&mut (dyn Keeper + 'k), &Past)>, bool),
     heed: &mut Heed<'_>,
@@ -344,7 +344,7 @@ fn search<'k>(
             if paused || counted || news > 0 { Decision::Stop(None) } else { decision }
         };
         let stop = crew.work(explorer, shards, &starts, words, &mut decide);
-        starts = Vec::new();
+        starts = Initial::NONE;
         if counted {
             counts = false;
             match shorter(explorer, shards) {
