@@ -505,3 +505,27 @@ fn a_name_that_is_made_must_not_be_that_of_a_rule() {
     assert_eq!(told(&renamed("poses")), [""; 0]);
     assert!(told(&renamed("guide")).contains(&"`r_task` cannot be the name of a function".to_string()));
 }
+
+#[test]
+fn more_processors_are_advised_where_they_help() {
+    let advice = |channel: &str, processors: usize| {
+        let text = format!(
+            "chart C system c\n processors {processors}\n component eye synchronous period 4 ms\n elaborate look 1 ms\n write seen 1 ms\n \
+             endcomponent\n component plan asynchronous awaits seen\n read seen 1 ms\n elaborate think 9 ms\n endcomponent\n \
+             component arm synchronous period 20 ms deadline 3 ms\n elaborate go 2 ms\n endcomponent\n \
+             channel seen from eye to plan {channel}\nendsystem"
+        );
+        let (_, faults) = chart::read(syntax::FileId(0), &syntax::parse_chart(syntax::FileId(0), &text));
+        let late = faults.iter().filter(|fault| fault.id == "late-response");
+        late.map(|fault| {
+            let more = fault.help.as_ref().is_some_and(|help| help.ends_with("or use more processors"));
+            let name = fault.message.split('`').nth(1).unwrap_or_default();
+            format!("{name}: {}", if more { "more processors" } else { "a later deadline" })
+        })
+        .collect::<Vec<String>>()
+    };
+    // The eye may wait for room in the queue, whoever else has a processor.
+    assert_eq!(advice("queue 2", 1), ["eye: a later deadline", "arm: more processors"]);
+    assert_eq!(advice("shared value", 1), ["arm: more processors"]);
+    assert_eq!(advice("shared value", 3), [""; 0]);
+}

@@ -67,7 +67,7 @@ pub(crate) fn late_response(
     certain: bool,
     reason: &str,
     deadline: &str,
-    processors: u64,
+    (processors, more_help): (u64, bool),
 ) -> Diagnostic {
     // That it is late for certain is known of more urgent tasks alone. Otherwise nobody knows what keeps it waiting, if anything does.
     let (misses, cause) = match certain {
@@ -75,9 +75,10 @@ pub(crate) fn late_response(
         false => ("may miss", "the analysis does not show that it ends in time"),
     };
     let message = format!("`{name}` {misses} its deadline of {deadline} on {}: {reason}", on(processors));
-    Diagnostic::warning("late-response", span, message)
-        .here(cause)
-        .with_help("`groundstate chart times` shows the times of all tasks; shorten phases, or use more processors")
+    Diagnostic::warning("late-response", span, message).here(cause).with_help(match more_help {
+        true => "`groundstate chart times` shows the times of all tasks; shorten phases, or use more processors",
+        false => "`groundstate chart times` shows the times of all tasks; shorten phases, or allow a later deadline",
+    })
 }
 
 /// An age bound below what the phases alone take.

@@ -239,13 +239,16 @@ pub fn told(system: &System, times: &Times, place: syntax::Span) -> Vec<Diagnost
             (_, Some(response)) => format!("it may take {}", shown(response)),
             _ => "the more urgent tasks leave it too little time".to_string(),
         };
+        // Where a queue or a lock keeps it waiting, or its own cycle is as long as its period, others are no help.
+        let is_preempted = task.blocking.is_some() && task.response.is_none_or(|response| response > deadline);
+        let more_help = is_preempted && !is_apart(system, times.platform);
         faults.push(fault::times::late_response(
             component.span,
             &component.name,
             certain,
             &reason,
             &shown(deadline),
-            processors,
+            (processors, more_help),
         ));
     }
     faults
