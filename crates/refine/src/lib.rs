@@ -6,6 +6,7 @@
 //! docs/adr/0023. It must not know files or how results are told.
 
 mod behind;
+mod bmc;
 mod bounded;
 mod build;
 mod computed;
@@ -14,6 +15,7 @@ mod determined;
 mod diagram;
 mod evidence;
 mod fault;
+mod formulas;
 mod game;
 mod induction;
 mod joint;
@@ -31,17 +33,20 @@ mod translate;
 mod why;
 mod written;
 
+pub use bmc::refute;
 pub use coupling::{Coupling, Faulty};
 pub use diagram::{Diagram, Diagrams};
 pub use evidence::{Ended, Refutation, Run, Segment, Tried};
 pub use fault::IDS;
-pub use induction::proof::{Attempt, Gap, Known, Obligation, Origin, Proof, SOLVERS, Said, Stuck};
-pub use induction::{Provers, prove};
+pub use formulas::ask::Provers;
+pub use formulas::obligation::{Obligation, Origin, SOLVERS, Said};
+pub use induction::proof::{Attempt, Gap, Known, Proof, Stuck};
+pub use induction::prove;
 pub use layout::format;
 pub use options::{Extent, Options};
 pub use preserve::Preserved;
 pub use refine::{Trouble, refine};
-pub use report::{Assumed, From, Progress, Report, Vacuous, Verdict, Why};
+pub use report::{Assumed, From, Left, Progress, Report, Runs, Vacuous, Verdict, Why};
 pub use why::{Differs, Instance, Part};
 pub use written::{Mapped, Part as WrittenPart, WORDS, Written, read};
 

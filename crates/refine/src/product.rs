@@ -12,12 +12,12 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 
 use explore::{Start, Unbounded};
-use machine::Value;
+use machine::{Location, Value};
 use program::FunctionId;
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::judge::Judge;
-use crate::side::{Goal, Inputs, Label, Move, Side, StateId, Stopped};
+use crate::side::{Goal, Inputs, Label, Move, Side, StateId, Stopped, Unmade};
 use crate::{ABSTRACT, CONCRETE};
 
 /// The number of a pair.
@@ -207,6 +207,18 @@ impl<'c> Product<'c> {
     pub fn abstract_moves(&mut self, state: StateId) -> Result<Rc<[Move]>, Stopped> {
         let bridge = &self.judge.coupling.joint.bridges[ABSTRACT];
         self.sides[ABSTRACT].moves(state, &[], &mut self.inputs, bridge)
+    }
+
+    /// Follows a run of the concrete machine: see [`Side::follow`].
+    pub fn follow(
+        &mut self,
+        state: StateId,
+        values: &BTreeMap<Location, Value>,
+        wanted: Option<&[(Location, Value)]>,
+    ) -> Result<Option<StateId>, Unmade> {
+        let given = self.given(state);
+        let bridge = &self.judge.coupling.joint.bridges[CONCRETE];
+        self.sides[CONCRETE].follow(state, values, wanted, &given, &mut self.inputs, bridge)
     }
 
     /// The concrete machine goes on in a diagram that has `n` steps already.

@@ -85,7 +85,7 @@ pub(crate) fn product<'c>(coupling: &'c Coupling, options: &Options) -> Result<P
 }
 
 /// The same, or the side whose states need more room.
-fn begun<'c>(
+pub(crate) fn begun<'c>(
     coupling: &'c Coupling,
     options: &Options,
     widenings: &[Widening; 2],
@@ -247,7 +247,7 @@ fn attempt(
         _ => Vec::new(),
     };
     let dead_ends = product.sides[CONCRETE].dead_ends();
-    Ok(Ok(Report { verdict, progress, diagrams, assumed, idle, dead_ends, properties, proof: None }))
+    Ok(Ok(Report { verdict, progress, diagrams, assumed, idle, dead_ends, properties, proof: None, runs: None }))
 }
 
 /// What was not clear anywhere that matters.
@@ -272,13 +272,19 @@ fn unclear(product: &Product<'_>, whys: &mut Whys) {
             Node::Open(unclear) => Some(*unclear),
             Node::Fault => None,
         };
-        match unclear {
-            None => {}
-            Some(Unclear::Unbounded(side, unbounded)) => whys.add(Why::Unbounded(side, unbounded)),
-            Some(Unclear::Long) => whys.add(Why::Long(product.judge.coupling.diagrams.most_concrete())),
-            Some(Unclear::Valuations) => whys.add(Why::Valuations),
-            Some(Unclear::Bounded(input)) => whys.add(Why::Bounded(ABSTRACT, input)),
+        if let Some(unclear) = unclear {
+            whys.add(why_of(product, unclear));
         }
+    }
+}
+
+/// What was not clear, as a reason.
+pub(crate) fn why_of(product: &Product<'_>, unclear: Unclear) -> Why {
+    match unclear {
+        Unclear::Unbounded(side, unbounded) => Why::Unbounded(side, unbounded),
+        Unclear::Long => Why::Long(product.judge.coupling.diagrams.most_concrete()),
+        Unclear::Valuations => Why::Valuations,
+        Unclear::Bounded(input) => Why::Bounded(ABSTRACT, input),
     }
 }
 

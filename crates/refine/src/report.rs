@@ -5,9 +5,11 @@ use std::collections::BTreeMap;
 use explore::Unbounded;
 use machine::Cause;
 use program::FunctionId;
+use solve::Outside;
 use syntax::Span;
 
 use crate::evidence::Refutation;
+use crate::formulas::obligation::{Origin, Said};
 use crate::induction::proof::Proof;
 use crate::preserve::Preserved;
 
@@ -45,6 +47,8 @@ pub enum Why {
     Bounded(usize, FunctionId),
     /// An inductive proof is not whole; its gap says why.
     Unproved,
+    /// Solvers found no run that refutes; [`Runs`] says how far they looked.
+    NoRun,
 }
 
 /// Why the answer would say nothing.
@@ -60,6 +64,40 @@ pub enum Vacuous {
     Total,
     /// A machine has no initial state that its assumptions admit.
     NoStart(usize),
+}
+
+/// Why solvers did not look at longer runs.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Left {
+    /// Something is outside of what solvers are told, or there are too many answers of the abstract machine.
+    Outside(Origin, Outside),
+    /// In a run of so many steps the concrete machine may do what solvers are not told of.
+    Beyond(u64, Outside),
+    /// Not all solvers decide about runs of so many steps: what each said.
+    Silent(u64, Vec<Said>),
+    /// A solver found a run of so many steps that the machines do not make, or that refutes nothing.
+    Odd(u64),
+    /// A solver found a run of so many steps that the machines could not make again, for this reason.
+    Unclear(u64, Why),
+    /// The caller asked to stop.
+    Stopped,
+}
+
+/// What solvers looked at of runs from the initial states.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Runs {
+    /// The solvers, with their versions.
+    pub solvers: Vec<String>,
+    /// All of them say that no run of at most so many concrete steps is refuted.
+    pub depth: u64,
+    /// The steps of a run that is refuted and was made again, and the solver that found it.
+    pub found: Option<(u64, String)>,
+    /// If a proof fails at an obligation: a run of so many steps comes to a pair from which it fails, in the word of this solver.
+    pub reached: Option<(u64, String)>,
+    /// All solvers say that no run of at most so many steps comes to such a pair.
+    pub apart: Option<u64>,
+    /// Why longer runs were not looked at; none if the limit of steps was reached.
+    pub left: Option<Left>,
 }
 
 /// The verdict.
@@ -114,4 +152,6 @@ pub struct Report {
     pub properties: Vec<Preserved>,
     /// If it was to be proved by induction: how far the proof came.
     pub proof: Option<Box<Proof>>,
+    /// If solvers looked for runs that refute: how far.
+    pub runs: Option<Box<Runs>>,
 }

@@ -4,6 +4,8 @@
 //! both machines share, so that they can be compared. INVARIANT: a state's moves are all of them, in the order of its alternatives, or
 //! the state has none and [`Stopped`] says why.
 
+mod followed;
+
 use std::collections::{BTreeMap, BTreeSet};
 use std::hash::{Hash, Hasher};
 use std::ops::ControlFlow;
@@ -23,6 +25,8 @@ use crate::computed::{Computed, Values};
 use crate::joint::Bridge;
 use crate::limited::{Limit, limited};
 use crate::options::Extent;
+use followed::Followed;
+pub(crate) use followed::Unmade;
 
 /// The number of a state of one machine.
 pub type StateId = u32;
@@ -128,6 +132,8 @@ pub(crate) struct Side {
     pub steps: (u64, u64),
     /// The most steps of one state that are gone through.
     pub most: u64,
+    /// If a run is followed: its steps, which are all that are made.
+    followed: Option<Followed>,
 }
 
 impl Side {
@@ -169,6 +175,7 @@ impl Side {
             looked_at: BTreeMap::new(),
             steps: (0, 0),
             most: u64::MAX,
+            followed: None,
         })
     }
 
@@ -283,6 +290,24 @@ impl Side {
         all.into()
     }
 
+    /// The same with the inputs that the state determines.
+    fn label_with(
+        &self,
+        read: &[(Location, Value)],
+        values: Values,
+        given: &[(u32, u32)],
+        inputs: &mut Inputs,
+        bridge: &Bridge,
+    ) -> Label {
+        let label = self.label(read, values, inputs, bridge);
+        if given.is_empty() {
+            return label;
+        }
+        let mut all: Vec<(u32, u32)> = label.iter().chain(given).copied().collect();
+        all.sort_unstable();
+        all.into()
+    }
+
     fn label_of_inputs(&self, read: &[(Location, Value)], inputs: &mut Inputs, bridge: &Bridge) -> Label {
         let mut label: Vec<(u32, u32)> = Vec::new();
         for (location, value) in read {
@@ -306,6 +331,9 @@ impl Side {
     ) -> Result<Rc<[Move]>, Stopped> {
         if self.interrupt.is_raised() {
             return Err(Stopped::Interrupted);
+        }
+        if let Some(followed) = &self.followed {
+            return Ok(followed.moves(state));
         }
         if let Some(known) = &self.moves[state as usize] {
             return Ok(Rc::clone(known));
@@ -374,12 +402,7 @@ impl Side {
         let mut seen = FxHashSet::default();
         for (Path { inputs: read, outcome, .. }, values) in paths {
             self.look_at(Some(state), &read);
-            let mut label = self.label(&read, values, inputs, bridge);
-            if !given.is_empty() {
-                let mut all: Vec<(u32, u32)> = label.iter().chain(given).copied().collect();
-                all.sort_unstable();
-                label = all.into();
-            }
+            let label = self.label_with(&read, values, given, inputs, bridge);
             let goal = match outcome {
                 Outcome::Next(next) => {
                     if !self.is_assumed(&next) {
@@ -433,6 +456,9 @@ impl Side {
         inputs: &mut Inputs,
         bridge: &Bridge,
     ) -> Option<Told> {
+        if let Some(followed) = &self.followed {
+            return followed.told(from, wanted);
+        }
         let packed = self.packed(from);
         let (most, computed) = (u64::MAX, self.computed.as_mut());
         let mut paths = Paths { computed, bridge, most, values: Values::new(), found: Vec::new() };

@@ -1,5 +1,6 @@
 //! The tests of `refine` as one program. Each file of this folder is a module here.
 
+mod bmc;
 mod broken;
 mod computed;
 mod enumerated;

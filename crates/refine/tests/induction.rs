@@ -32,7 +32,7 @@ pub fn coupled(one: &Arc<Program>, other: &Arc<Program>, text: &str) -> Coupling
 pub fn proved_by(mut by: Vec<impl Solvers>, coupling: &Coupling, pairs: u64) -> Report {
     let solvers = by.iter_mut().map(|solver| -> &mut dyn Solvers { solver }).collect();
     let options = Options { max_pairs: pairs, ..Options::default() };
-    prove(coupling, &options, Provers { solvers, seconds: 20 }, &mut |_| true).expect("it begins")
+    prove(coupling, &options, Provers { solvers, seconds: 20, depth: 0 }, &mut |_| true).expect("it begins")
 }
 
 /// The report of the solvers alone; none if they are not there.
@@ -303,7 +303,8 @@ fn solvers_that_disagree_or_do_not_know_prove_nothing() {
         let mut both = says.map(Says);
         let solvers = both.iter_mut().map(|solver| -> &mut dyn Solvers { solver }).collect();
         let options = Options { max_pairs: 0, ..Options::default() };
-        let report = prove(&coupling, &options, Provers { solvers, seconds: 1 }, &mut |_| true).expect("it begins");
+        let report =
+            prove(&coupling, &options, Provers { solvers, seconds: 1, depth: 0 }, &mut |_| true).expect("it begins");
         assert!(matches!(report.verdict, Verdict::Unknown(_) | Verdict::Vacuous(_)), "{says:?}: {:?}", report.verdict);
         report.proof.expect("a proof").gap
     };

@@ -123,10 +123,10 @@ impl Environment for Odometer {
     }
 }
 
-type State = (i64, bool);
+pub type State = (i64, bool);
 
 /// By state and value of the input, where steps lead.
-type Graph = BTreeMap<(State, bool), BTreeSet<State>>;
+pub type Graph = BTreeMap<(State, bool), BTreeSet<State>>;
 
 fn state(machine: &Machine) -> State {
     let of = |name: &str| {
@@ -139,7 +139,7 @@ fn state(machine: &Machine) -> State {
     }
 }
 
-fn graph(program: &Arc<Program>) -> (State, Graph) {
+pub fn graph(program: &Arc<Program>) -> (State, Graph) {
     let mut machine = Machine::new(Arc::clone(program), Limits::default());
     machine.start(&mut machine::Closed).expect("it begins");
     let (first, begun) = (state(&machine), machine.snapshot());
@@ -180,7 +180,7 @@ fn steps(graph: &Graph, from: State, inputs: &[bool], most: usize) -> BTreeSet<S
 }
 
 /// What the abstract machine's input is, given the concrete machine's and its state.
-type Mapped = fn(bool, State) -> bool;
+pub type Mapped = fn(bool, State) -> bool;
 
 /// Whether the concrete graph is simulated: one step, or one or two, by at most as many, with finitely many waits between steps.
 fn simulated(one: &(State, Graph), other: &(State, Graph), most: usize, mapped: Mapped) -> bool {

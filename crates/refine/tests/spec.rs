@@ -4,6 +4,8 @@ use refine::{Coupling, Options, Verdict, refine};
 use syntax::SourceFile;
 use testkit::Page;
 
+use crate::bmc::{one_of, sought};
+use crate::induction::coupled;
 use crate::small::example;
 
 #[test]
@@ -32,6 +34,14 @@ fn the_examples_of_the_page_have_their_verdicts() {
                 };
                 assert_eq!(found, expected, "line {}", block.line);
                 count += 1;
+            }
+            ["refine", "bmc", steps] => {
+                let [Some(one), Some(other)] = &models else { panic!("line {}: no models", block.line) };
+                let coupling = coupled(one, other, block.text);
+                let Some(by) = one_of(0) else { continue };
+                let runs = sought(by, &coupling, 0, 5).runs.expect("runs");
+                let found = runs.found.map_or("none".to_string(), |(steps, _)| steps.to_string());
+                assert_eq!(found, steps, "line {}", block.line);
             }
             ["ebnf"] => {}
             _ => panic!("line {}: a block of an unknown kind: {}", block.line, block.info),

@@ -7,7 +7,7 @@ use groundstate::tell::{Refinements, Standing};
 use serde::Serialize;
 
 use crate::RunStep;
-use crate::refinement_proof::ProofLine;
+use crate::refinement_proof::{ProofLine, RunsLine};
 
 /// `{"type":"refinement",…}`
 #[derive(Debug, Serialize)]
@@ -15,7 +15,7 @@ use crate::refinement_proof::ProofLine;
 pub struct Refinement {
     #[cfg_attr(test, schemars(extend("const" = "refinement")))]
     r#type: &'static str,
-    /// `explicit` or `induction`.
+    /// `explicit`, `induction` or `bmc`.
     method: &'static str,
     /// `refines`, `does-not-refine`, `unknown` or `vacuous`.
     verdict: &'static str,
@@ -49,6 +49,9 @@ pub struct Refinement {
     /// With `induction`: how far the proof came. Then `pairs` and what follows it are of a short search before.
     #[serde(skip_serializing_if = "Option::is_none")]
     proof: Option<ProofLine>,
+    /// What solvers looked at of runs from the initial states: with `bmc`, and with `induction` where a proof fails at an obligation.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    bmc: Option<RunsLine>,
 }
 
 /// What a property of the abstract machine is in the concrete one.
@@ -166,6 +169,9 @@ impl Refinement {
             Verdict::Unknown(whys) if whys.contains(&Why::Unproved) => {
                 ("unknown", report.proof.iter().map(|proof| words.gap(proof)).collect(), None)
             }
+            Verdict::Unknown(whys) if whys.contains(&Why::NoRun) => {
+                ("unknown", report.runs.iter().map(|runs| words.no_run(runs)).collect(), None)
+            }
             Verdict::Unknown(whys) => ("unknown", whys.iter().map(|why| words.why(why)).collect(), None),
             Verdict::Vacuous(vacuous) => {
                 let runs = match vacuous {
@@ -183,7 +189,11 @@ impl Refinement {
         };
         Refinement {
             r#type: "refinement",
-            method: if report.proof.is_some() { "induction" } else { "explicit" },
+            method: match (&report.proof, &report.runs) {
+                (Some(_), _) => "induction",
+                (None, Some(_)) => "bmc",
+                (None, None) => "explicit",
+            },
             verdict,
             reasons,
             coupling: (0..words.coupling.conjuncts()).map(|index| words.coupling.conjunct(index)).collect(),
@@ -221,6 +231,7 @@ impl Refinement {
                 .collect(),
             runs: refutation.map(|refutation| RunPair::new(words, refutation)),
             proof: report.proof.as_ref().map(|proof| ProofLine::new(words, proof)),
+            bmc: report.runs.as_ref().map(|runs| RunsLine::new(words, runs)),
         }
     }
 }

@@ -1,8 +1,9 @@
-//! A proof of refinement by induction, as a JSON object: what solvers said of each obligation, and where the proof does not go on.
+//! What solvers said of a refinement, as JSON objects: of each obligation of a proof by induction, and of runs from the initial states.
 //!
-//! In: a proof with the words for it. Out: [`ProofLine`], which stands in the object of the refinement.
+//! In: a proof, or how far runs were looked at, with the words for it. Out: [`ProofLine`] and [`RunsLine`], which stand in the object of
+//! the refinement.
 
-use groundstate::refine::{ABSTRACT, CONCRETE, Differs, Gap, Known, Proof, SIDES, Stuck};
+use groundstate::refine::{ABSTRACT, CONCRETE, Differs, Gap, Known, Proof, Runs, SIDES, Stuck};
 use groundstate::tell::{Refinements, said};
 use serde::Serialize;
 
@@ -106,6 +107,50 @@ struct AttemptLine {
     fails: Vec<String>,
     /// All parts hold, but no variant says that it does not stand still for ever.
     stands_still: bool,
+}
+
+/// What solvers looked at of runs from the initial states.
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub(crate) struct RunsLine {
+    /// The solvers, with their versions.
+    solvers: Vec<String>,
+    /// All of them say that no run of at most so many concrete steps is refuted.
+    steps: u64,
+    /// A run that refutes: its steps, and the solver that found it. Both machines have made it again.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    found: Option<FoundLine>,
+    /// With `induction`: a run to a pair of states from which the last obligation fails.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    reached: Option<FoundLine>,
+    /// With `induction`: all solvers say that no run of at most so many steps comes to such a pair.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    not_reached: Option<u64>,
+    /// Why longer runs were not looked at, if it is not the limit of steps.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    left: Option<String>,
+}
+
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+struct FoundLine {
+    steps: u64,
+    solver: String,
+}
+
+impl RunsLine {
+    /// What was looked at.
+    pub fn new(words: &Refinements<'_>, runs: &Runs) -> RunsLine {
+        let line = |(steps, solver): &(u64, String)| FoundLine { steps: *steps, solver: solver.clone() };
+        RunsLine {
+            solvers: runs.solvers.clone(),
+            steps: runs.depth,
+            found: runs.found.as_ref().map(line),
+            reached: runs.reached.as_ref().map(line),
+            not_reached: runs.apart,
+            left: runs.left.is_some().then(|| words.no_run(runs)),
+        }
+    }
 }
 
 impl ProofLine {

@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 use groundstate::inputs::bound;
-use groundstate::job::{self, Cancel, RefineEvent};
+use groundstate::job::{self, Asked, Cancel, RefineEvent};
 use groundstate::refine::{ABSTRACT, CONCRETE, Coupling, Extent, Options, Report, SIDES, Trouble, Verdict, read};
 use groundstate::tell::{Refinements, Standing, no_start, trace_of};
 use groundstate::verify::{Outcome, Progress, Subject};
@@ -29,6 +29,9 @@ use crate::verify::watch::Watch;
 
 /// The time limit for each question to a solver, in seconds, where none is given for the whole.
 const SECONDS: u32 = 60;
+/// The most steps of runs that are looked at, where no limit is given; and where a proof by induction fails.
+const DEPTH: u64 = 12;
+const SHORT: u64 = 6;
 
 /// Arguments of `refine`.
 #[derive(Debug, Args)]
@@ -58,9 +61,12 @@ pub struct Arguments {
     /// Verify of the abstract model the properties that come along to the concrete one
     #[arg(long)]
     properties: bool,
-    /// Explore the pairs of states; or prove by induction, for states without end: z3 and cvc5 must both accept
+    /// Explore the pairs of states; or ask solvers, for states without end: prove by induction, or look for bounded runs that refute
     #[arg(long, value_enum, default_value_t = Method::Explicit)]
     method: Method,
+    /// The most steps of runs that --method bmc looks at (default 12), and --method induction where it fails (default 6)
+    #[arg(long, value_name = "N")]
+    depth: Option<u64>,
     /// Show all of the first states and of the coupling, not only what matters
     #[arg(long)]
     all: bool,
@@ -75,10 +81,12 @@ pub struct Arguments {
 /// How it is decided.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Method {
-    /// By exploring the pairs of states.
+    /// By exploring the pairs of states
     Explicit,
-    /// By an inductive proof.
+    /// By an inductive proof, which z3 and cvc5 must both accept; where it fails, short runs are looked at
     Induction,
+    /// By bounded runs from the initial states, which z3 or cvc5 finds and the machines make again
+    Bmc,
 }
 
 /// What is asked: the paths of the models, and the coupling's text.
@@ -139,9 +147,14 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     let started = match arguments.method {
         Method::Explicit => job::refine(coupling, options, cancel),
         // All questions together end with the time.
-        Method::Induction => {
+        Method::Induction | Method::Bmc => {
             let seconds = arguments.time.map_or(SECONDS, |time| u32::try_from(time).unwrap_or(u32::MAX));
-            job::prove(coupling, options, solvers()?, seconds, cancel)
+            let (asked, depth) = match arguments.method {
+                Method::Bmc => (Asked::Runs, DEPTH),
+                _ => (Asked::Induction, SHORT),
+            };
+            let depth = arguments.depth.unwrap_or(depth);
+            job::ask(asked, coupling, options, solvers(arguments.method)?, (seconds, depth), cancel)
         }
     };
     let job = started.map_err(|error| Failure::usage(format!("the search cannot be started: {error}")))?;
@@ -214,21 +227,38 @@ fn assumed(
 fn fits_method(arguments: &Arguments) -> Result<(), Failure> {
     let refused = |option: &str, help: &str| Err(Failure::usage_with_help(option.to_string(), help));
     match arguments.method {
-        Method::Explicit if arguments.obligations.is_some() => {
+        Method::Explicit | Method::Bmc if arguments.obligations.is_some() => {
             refused("--obligations is about proofs", "add --method induction")
+        }
+        Method::Explicit if arguments.depth.is_some() => refused(
+            "--depth is about runs that solvers look at",
+            "add --method bmc; without a method, --max-states and --time limit the search",
+        ),
+        Method::Bmc if arguments.depth == Some(0) => {
+            refused("--depth 0 leaves no run to look at", "give a number of steps from 1 on")
         }
         Method::Induction if !arguments.bounds.is_empty() => {
             refused("--method induction is about all values of inputs", "leave out --bound, or --method")
         }
-        Method::Explicit | Method::Induction => Ok(()),
+        Method::Bmc if !arguments.bounds.is_empty() => {
+            refused("--method bmc is about all values of inputs", "leave out --bound, or --method")
+        }
+        Method::Bmc if arguments.properties => refused(
+            "--properties is about what comes along if it refines, and --method bmc never says so",
+            "leave out --properties, or --method",
+        ),
+        Method::Explicit | Method::Induction | Method::Bmc => Ok(()),
     }
 }
 
 /// The solvers that are there.
-fn solvers() -> Result<Vec<Process>, Failure> {
+fn solvers(method: Method) -> Result<Vec<Process>, Failure> {
     let both = Process::both();
     if both.is_empty() {
-        let message = "--method induction needs z3 and cvc5, and neither is on the PATH";
+        let message = match method {
+            Method::Bmc => "--method bmc needs z3 or cvc5, and neither is on the PATH",
+            Method::Explicit | Method::Induction => "--method induction needs z3 and cvc5, and neither is on the PATH",
+        };
         return Err(Failure::usage_with_help(
             message,
             "install both: sh cpp/install.sh z3 cvc5, or apt-get install z3 cvc5",

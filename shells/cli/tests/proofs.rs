@@ -1,5 +1,5 @@
-//! `groundstate refine --method induction`: what it says with both solvers, with one, and with none; and that the files that it writes are
-//! what the solvers were asked. Where a solver is missing what needs it is not tested, and stderr says so.
+//! `groundstate refine --method induction` and `bmc`: what they say with both solvers, with one, and with none; and that the files that are
+//! written are what the solvers were asked. Where a solver is missing what needs it is not tested, and stderr says so.
 
 #![allow(clippy::disallowed_methods, reason = "a test runs the command on files, with another search path")]
 
@@ -18,10 +18,16 @@ fn found(name: &str) -> Option<PathBuf> {
     std::env::split_paths(&folders).map(|folder| folder.join(name)).find(|path| path.is_file())
 }
 
-/// What the command says, by this search path if there is one.
+/// What the command says of a proof, by this search path if there is one.
 fn said(coupling: &str, more: &[&str], path: Option<&Path>) -> (Option<i32>, String) {
+    let arguments = [&[coupling, "--method", "induction"], more].concat();
+    refine(&arguments, path)
+}
+
+/// What the command says.
+fn refine(arguments: &[&str], path: Option<&Path>) -> (Option<i32>, String) {
     let mut command = Command::new(env!("CARGO_BIN_EXE_groundstate"));
-    command.args(["refine", coupling, "--method", "induction"]).args(more).current_dir(folder());
+    command.arg("refine").args(arguments).current_dir(folder());
     if let Some(path) = path {
         command.env("PATH", path);
     }
@@ -105,6 +111,62 @@ fn one_solver_proves_nothing_and_none_is_asked_for() {
         assert!(text.contains(&format!("only {name} accepts the proof")), "{text}");
         assert!(text.contains(&format!("cpp/install.sh {other}")), "{text}");
     }
+}
+
+/// A wrong machine whose inputs cannot be gone through is refuted by either solver, and both runs are scenarios that pass.
+#[test]
+fn a_run_that_a_solver_finds_is_made_again() {
+    for name in ["z3", "cvc5"] {
+        let Some(solver) = found(name) else { continue };
+        let alone = tempfile::tempdir().expect("a temporary folder");
+        std::os::unix::fs::symlink(solver, alone.path().join(name)).expect("a link");
+        let into = alone.path().join("runs").display().to_string();
+        let asked = ["Peak.asm", "Hurried.asm", "--with", "Filter.refine", "--method", "bmc"];
+        let (code, text) = refine(&[&asked[..], &["--counterexample", &into]].concat(), Some(alone.path()));
+        assert_eq!(code, Some(1), "{text}");
+        assert!(text.contains("does not refine: nothing matches step 2 of the concrete machine"), "{text}");
+        assert!(
+            text.contains(&format!("found by   {name}: a run of 2 steps, which both machines make again")),
+            "{text}"
+        );
+        let again = Command::new(env!("CARGO_BIN_EXE_groundstate")).args(["test", &into]).output().expect("it starts");
+        let text = String::from_utf8_lossy(&again.stdout).into_owned();
+        assert!(again.status.success() && text.contains("2 passed"), "{text}");
+        let (code, text) = refine(&[&asked[..], &["--format", "json"]].concat(), Some(alone.path()));
+        assert_eq!(code, Some(1), "{text}");
+        for says in
+            [r#""method":"bmc","verdict":"does-not-refine""#, r#""bmc":{"solvers":[""#, r#""found":{"steps":2,"#]
+        {
+            assert!(text.contains(says), "{says}: {text}");
+        }
+        let (code, text) = refine(&["Filter.refine", "--method", "bmc", "--depth", "4"], Some(alone.path()));
+        assert_eq!(code, Some(3), "{text}");
+        let says = "not known: no run of at most 4 steps of the concrete machine is refuted";
+        assert!(text.contains(says) && text.contains(&format!("all runs of at most 4 steps, by {name}")), "{text}");
+    }
+    let empty = tempfile::tempdir().expect("a temporary folder");
+    let (code, text) = refine(&["Filter.refine", "--method", "bmc"], Some(empty.path()));
+    assert_eq!(code, Some(2), "{text}");
+    assert!(text.contains("--method bmc needs z3 or cvc5"), "{text}");
+}
+
+/// Where a proof fails, runs of a few steps tell a wrong machine from a weak coupling.
+#[test]
+fn where_a_proof_fails_runs_are_looked_at() {
+    if solvers(false).len() < 2 {
+        return;
+    }
+    let (code, text) = said("Unsaid.refine", &["--depth", "3"], None);
+    assert_eq!(code, Some(3), "{text}");
+    assert!(text.contains("no run of at most 3 steps comes to such a pair, by z3 and cvc5"), "{text}");
+    assert!(text.contains("no run of at most 3 steps of the concrete machine is refuted, by z3 and cvc5"), "{text}");
+    let (code, text) = said("Unsaid.refine", &["--depth", "0"], None);
+    assert_eq!(code, Some(3), "{text}");
+    assert!(!text.contains("no run of at most"), "{text}");
+    let wrong = ["Peak.asm", "Hurried.asm", "--with", "Filter.refine", "--method", "induction"];
+    let (code, text) = refine(&wrong, None);
+    assert_eq!(code, Some(1), "{text}");
+    assert!(text.contains("does not refine: nothing matches step 2") && text.contains("  found by   "), "{text}");
 }
 
 /// `--time` ends all questions together, not each of them. The solvers here are there and never answer.

@@ -8,11 +8,12 @@
 //! guard does not hold is *dead*, and only where all are dead does the rule have no candidate. So an alternative looks
 //! at no more of the state than its own guard does.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use machine::{
-    Alternatives, Bounds, Choice, Draw, Edit, Environment, Fault, FaultKind, LocationRef, Piece, TimeUnit, Value,
+    Alternatives, Bounds, Choice, Draw, Edit, Environment, Fault, FaultKind, Location, LocationRef, Piece, TimeUnit,
+    Value,
 };
 use program::{DomainId, FunctionId, Program};
 use syntax::Span;
@@ -89,6 +90,8 @@ pub struct Branches {
     /// The functions whose inputs may be in the rest of an initial state.
     pub(crate) inputs_in_rest: BTreeSet<FunctionId>,
     pub(crate) bounds: Arc<Bounds>,
+    /// Values of inputs that go before all others: those of a run that is followed.
+    pub(crate) given: BTreeMap<Location, Value>,
     /// The collections that stand in pieces.
     pub(crate) pieces: Option<Pieces>,
     /// The locations of such that were overwritten, and the edit where that is all that was done to one.
@@ -113,6 +116,7 @@ impl Branches {
             origin: None,
             inputs_in_rest: BTreeSet::new(),
             bounds,
+            given: BTreeMap::new(),
             pieces: None,
             edits: Vec::new(),
             dead: false,
@@ -251,7 +255,7 @@ impl Alternatives for Branches {
     }
 
     fn gives(&self, input: FunctionId) -> bool {
-        self.bounds.contains_key(&input)
+        self.bounds.contains_key(&input) || self.given.keys().any(|location| location.function == input)
     }
 
     fn endless_input(&mut self, input: FunctionId, span: Span) -> String {
@@ -319,6 +323,9 @@ impl Environment for Branches {
         location: LocationRef<'_>,
         _codomain: DomainId,
     ) -> Result<Value, String> {
+        if let Some(value) = self.given.get(&location.to_location()) {
+            return Ok(value.clone());
+        }
         let span = program.function(location.function).span;
         let bounds = Arc::clone(&self.bounds);
         match bounds.get(&location.function) {

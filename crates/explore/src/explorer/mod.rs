@@ -17,7 +17,7 @@ mod sights;
 mod tell;
 
 use std::cmp::Ordering;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
@@ -459,6 +459,12 @@ impl Explorer {
             .chain(edits)
             .collect();
         Ok(())
+    }
+
+    /// From now on these inputs have these values in every step that is told or gone through path by path, whatever the bounds; what is
+    /// remembered of steps must not be used meanwhile.
+    pub fn give(&mut self, inputs: BTreeMap<Location, Value>) {
+        self.branches.given = inputs;
     }
 
     /// From now on all alternatives are gone through, however long that takes; for telling what was found. Gives what would have

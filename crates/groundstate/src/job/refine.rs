@@ -1,6 +1,7 @@
 //! Decides a refinement, as a job.
 //!
-//! In: a coupling of two machines and options, for a proof by induction solvers as well. Out: progress while the search goes on; at the end the report, or why there is none.
+//! In: a coupling of two machines and options, and solvers where they are asked. Out: progress while the search goes on; at the end the
+//! report, or why there is none.
 
 use std::io;
 
@@ -32,15 +33,25 @@ pub fn refine(coupling: Coupling, mut options: Options, cancel: Cancel) -> io::R
     })
 }
 
-/// Starts a proof by induction, like [`refine()`]. Two solvers must accept it.
+/// How solvers are asked.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Asked {
+    /// For a proof by induction, which two of them must accept; where it fails, for runs of a few steps.
+    Induction,
+    /// For runs that refute.
+    Runs,
+}
+
+/// Starts to ask solvers, like [`refine()`]: so many seconds for a question, about runs of so many steps.
 ///
 /// # Errors
 /// The system cannot start a thread.
-pub fn prove<S: Solvers + Send + 'static>(
+pub fn ask<S: Solvers + Send + 'static>(
+    asked: Asked,
     coupling: Coupling,
     mut options: Options,
     mut solvers: Vec<S>,
-    seconds: u32,
+    (seconds, depth): (u32, u64),
     cancel: Cancel,
 ) -> io::Result<RefineJob> {
     options.extents.iter_mut().for_each(|extent| extent.interrupt = cancel.interrupt().clone());
@@ -50,7 +61,11 @@ pub fn prove<S: Solvers + Send + 'static>(
             !port.is_cancelled()
         };
         let solvers = solvers.iter_mut().map(|solver| -> &mut dyn Solvers { solver }).collect();
-        let report = ::refine::prove(&coupling, &options, Provers { solvers, seconds }, &mut watch);
+        let provers = Provers { solvers, seconds, depth };
+        let report = match asked {
+            Asked::Induction => ::refine::prove(&coupling, &options, provers, &mut watch),
+            Asked::Runs => ::refine::refute(&coupling, &options, provers, &mut watch),
+        };
         (report, coupling)
     })
 }

@@ -14,6 +14,7 @@ mod refinement;
 mod review;
 mod run;
 mod side_by_side;
+mod sought;
 mod story;
 mod verdict;
 

@@ -12,7 +12,7 @@ use super::{Refinements, plural};
 const LINES: usize = 24;
 
 /// Names joined as in a sentence.
-fn joined(names: &[String]) -> String {
+pub(super) fn joined(names: &[String]) -> String {
     match names {
         [] => "no solver".to_string(),
         [one] => one.clone(),
@@ -20,9 +20,9 @@ fn joined(names: &[String]) -> String {
     }
 }
 
-/// The solvers without their versions.
-fn solvers(proof: &Proof) -> Vec<String> {
-    proof.solvers.iter().map(|solver| solver.split(' ').next().unwrap_or(solver).to_string()).collect()
+/// Solvers without their versions.
+pub(super) fn named(solvers: &[String]) -> Vec<String> {
+    solvers.iter().map(|solver| solver.split(' ').next().unwrap_or(solver).to_string()).collect()
 }
 
 /// What a solver said, in a word or a clause.
@@ -46,13 +46,15 @@ impl Refinements<'_> {
             Some(Gap::Stuck(index, _)) => format!("the induction fails at `{}`", name(*index)),
             Some(Gap::Contradicted(index)) => format!("solvers contradict each other about `{}`", name(*index)),
             Some(Gap::Silent(index)) => format!("not all solvers decide `{}`", name(*index)),
-            Some(Gap::Alone) => format!("only {} accepts the proof, and two solvers have to", joined(&solvers(proof))),
+            Some(Gap::Alone) => {
+                format!("only {} accepts the proof, and two solvers have to", joined(&named(&proof.solvers)))
+            }
             Some(Gap::Stopped) => "stopped".to_string(),
         }
     }
 
     /// Something that solvers are not told of, with its place.
-    fn named(&self, origin: Origin, outside: &solve::Outside) -> String {
+    pub(super) fn named(&self, origin: Origin, outside: &solve::Outside) -> String {
         let (sources, whose) = match origin {
             Origin::Side(side) => (&self.models[side].sources, format!("the {} model", SIDES[side])),
             Origin::Coupling => (self.coupling.sources(), "the coupling".to_string()),
@@ -63,15 +65,18 @@ impl Refinements<'_> {
         }
     }
 
-    /// The lines about a proof.
-    pub(super) fn proof(&self, proof: &Proof) -> Vec<String> {
+    /// The lines about a proof; `is_reached` if a run comes to a pair from which it does not go on.
+    pub(super) fn proof(&self, proof: &Proof, is_reached: bool) -> Vec<String> {
         let mut lines = known(proof);
         let accepted = proof.obligations.iter().filter(|obligation| obligation.is_accepted()).count();
         if proof.gap.is_none() {
             let used: Vec<String> = proof.diagrams.iter().map(|(m, n)| format!("{m}:{n}")).collect();
             let senses = proof.obligations.iter().filter(|obligation| obligation.sense).count();
             let count = plural(accepted - senses, "obligation");
-            lines.insert(0, format!("  proved     by induction: {count}, accepted by {}", joined(&solvers(proof))));
+            lines.insert(
+                0,
+                format!("  proved     by induction: {count}, accepted by {}", joined(&named(&proof.solvers))),
+            );
             if !used.is_empty() {
                 lines.insert(0, format!("  diagrams   {}", used.join(", ")));
             }
@@ -83,7 +88,7 @@ impl Refinements<'_> {
         match &proof.gap {
             Some(Gap::Stuck(index, stuck)) => {
                 lines.push(format!("  to prove: {}", proof.obligations[*index].claim));
-                lines.extend(self.stuck(stuck));
+                lines.extend(self.stuck(stuck, is_reached));
             }
             Some(Gap::Contradicted(index) | Gap::Silent(index)) => {
                 let obligation = &proof.obligations[*index];
@@ -93,7 +98,7 @@ impl Refinements<'_> {
                 }
                 lines.push("  --obligations DIR writes the question for other solvers".to_string());
             }
-            Some(Gap::Alone) => lines.push(missing(&solvers(proof))),
+            Some(Gap::Alone) => lines.push(missing(&named(&proof.solvers))),
             Some(Gap::Outside(..)) => {
                 lines.push("  let the pairs be explored: leave out --method".to_string());
             }
@@ -108,7 +113,7 @@ impl Refinements<'_> {
         lines
     }
 
-    fn stuck(&self, stuck: &Stuck) -> Vec<String> {
+    fn stuck(&self, stuck: &Stuck, is_reached: bool) -> Vec<String> {
         let mut lines = vec!["  from this pair, which corresponds, and which no run need reach:".to_string()];
         let shown = |side: usize| -> Vec<String> {
             let all = stuck.states[side].iter().map(|(name, value)| format!("{name} = {value}"));
@@ -159,10 +164,12 @@ impl Refinements<'_> {
         } else if stands {
             lines.push("  the variant must be at least 0 there, and less after the step".to_string());
         }
-        lines.push(
-            "  if no run reaches this pair, say what holds of those that are reached: `couple TERM;`, or an invariant"
-                .to_string(),
-        );
+        if !is_reached {
+            lines.push(
+                "  if no run reaches this pair, say what holds of those that are reached: `couple TERM;`, or an invariant"
+                    .to_string(),
+            );
+        }
         lines
     }
 

@@ -82,6 +82,11 @@ impl Refinements<'_> {
         {
             lines = vec![format!("not known: {}", self.gap(proof))];
         }
+        if let (Verdict::Unknown(whys), Some(runs)) = (&report.verdict, &report.runs)
+            && whys.contains(&Why::NoRun)
+        {
+            lines = vec![format!("not known: {}", self.no_run(runs))];
+        }
         lines.extend(self.extent(report));
         lines.extend(self.properties(report));
         lines.iter().map(|line| format!("{}\n", line.trim_end())).collect()
@@ -143,6 +148,7 @@ impl Refinements<'_> {
             }
             Why::Valuations => "inputs that the concrete machine does not look at have too many values".to_string(),
             Why::Unproved => "the proof by induction is not whole".to_string(),
+            Why::NoRun => "solvers found no run that is refuted".to_string(),
             Why::Bounded(side, input) => {
                 let name = &self.models[*side].program.function(*input).name;
                 format!(
@@ -172,7 +178,11 @@ impl Refinements<'_> {
                 .map(|((m, n), times)| format!("{m}:{n} in {}", plural(*times as usize, "place")));
             lines.push(format!("  diagrams   {}", used.collect::<Vec<_>>().join(", ")));
         }
-        lines.extend(report.proof.iter().flat_map(|proof| self.proof(proof)));
+        let refuted = matches!(report.verdict, Verdict::DoesNot(_));
+        let is_reached = report.runs.as_ref().is_some_and(|runs| runs.reached.is_some());
+        let proof = report.proof.as_ref().filter(|_| !refuted);
+        lines.extend(proof.iter().flat_map(|proof| self.proof(proof, is_reached)));
+        lines.extend(report.runs.iter().flat_map(|runs| self.sought(runs, proof.is_some())));
         for (word, names) in [("same input", &self.coupling.inputs), ("free input", &self.coupling.free)] {
             if !names.is_empty() && matches!(report.verdict, Verdict::Refines) {
                 lines.push(format!("  {word} {}", names.join(", ")));
@@ -194,7 +204,7 @@ impl Refinements<'_> {
         }
         let open = if progress.queue > 0 { format!(" ({} not looked at)", progress.queue) } else { String::new() };
         // What a proof rests on are not the pairs that were searched before it.
-        let first = if report.proof.is_some() { "searched before: " } else { "" };
+        let first = if report.proof.is_some() || report.runs.is_some() { "searched before: " } else { "" };
         lines.push(format!(
             "{first}{}{open} of {} and {}, {} and {}",
             plural(progress.pairs as usize, "pair"),

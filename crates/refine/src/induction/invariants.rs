@@ -7,10 +7,11 @@
 
 use solve::shared::{Node, Terms};
 
-use super::proof::{Known, Said};
+use super::proof::Known;
 use super::prover::Prover;
-use super::related::Related;
-use super::symbolic::{Replacement, Symbolic};
+use crate::formulas::obligation::Said;
+use crate::formulas::related::Related;
+use crate::formulas::symbolic::{Replacement, Symbolic};
 use crate::{ABSTRACT, CONCRETE, SIDES};
 
 /// LIMIT: so long each solver may think about an invariant, in seconds.

@@ -2,26 +2,23 @@
 //!
 //! In: a coupling, options, solvers. Out: a [`Report`] whose proof has the obligations as files of SMT-LIB, and what solvers said of each.
 //! Nothing is assumed of a pair but the coupling, the domains, the models' assumptions, and those of their invariants that are proved first;
-//! and with `segment`, that a segment ends there or begins a run. A short search by the machines goes before: it has the initial states, and
-//! it alone refutes. INVARIANT: *refines* is said only if two solvers accept every obligation, and none was left out. Decided in docs/adr/0043.
+//! and with `segment`, that a segment ends there or begins a run. A short search by the machines goes before, and has the initial states. Where an
+//! obligation fails, runs of a few steps are looked for ([`crate::bmc`]). Only what the machines make refutes. INVARIANT: *refines* is said only if two solvers accept every obligation, and none was left out. Decided in docs/adr/0043.
 
-mod across;
-mod answers;
-mod ask;
-mod diagrams;
 mod invariants;
 pub(crate) mod proof;
 mod prover;
-mod related;
 mod replay;
 mod steps;
 mod stuck;
-mod symbolic;
 
 use machine::Cause;
-use solve::session::Solvers;
 
+use crate::bmc::look;
 use crate::coupling::Coupling;
+use crate::formulas::Formulas;
+use crate::formulas::ask::{Ask, Provers};
+use crate::formulas::obligation::SOLVERS;
 use crate::limited::with_shared_inputs;
 use crate::options::Options;
 use crate::preserve::preserved_by;
@@ -29,28 +26,15 @@ use crate::refine::{Trouble, refine};
 use crate::report::{Progress, Report, Verdict, Why};
 use crate::transfer::Transfer;
 use crate::{ABSTRACT, CONCRETE};
-use ask::Ask;
-use proof::{Gap, Proof, SOLVERS};
+use proof::{Gap, Proof};
 use prover::{Ended, Prover};
-use symbolic::Store;
 
 /// LIMIT: so many pairs of states are searched for a refutation, if the options say nothing.
 const SEARCHED: u64 = 500;
 /// LIMIT: so many steps are made for it.
 const STEPS: u64 = 20_000;
-/// The solvers and how long they may take.
-pub struct Provers<'s> {
-    /// Two of them must accept each obligation.
-    pub solvers: Vec<&'s mut dyn Solvers>,
-    /// For each question, in seconds.
-    pub seconds: u32,
-}
-
-impl std::fmt::Debug for Provers<'_> {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Provers").field("seconds", &self.seconds).finish_non_exhaustive()
-    }
-}
+/// LIMIT: so long each solver may think about runs from the initial states, if an obligation fails, in seconds.
+const SECONDS: u32 = 10;
 
 /// Whether the concrete machine refines the abstract one, by induction. `watch` receives progress and tells whether to go on.
 ///
@@ -77,28 +61,35 @@ pub fn prove(
     // The search before a proof may not have come to the steps that matter.
     report.idle = false;
     let mut proof = Proof::default();
-    let Provers { solvers, seconds } = provers;
+    let Provers { solvers, seconds, depth } = provers;
     for solver in &solvers {
         proof.solvers.extend(solver.name());
     }
     let progress = report.progress;
     let mut go_on = || watch(&progress) && options.extents.iter().all(|extent| !extent.interrupt.is_raised());
-    let ask = Ask { solvers, seconds, go_on: &mut go_on, obligations: Vec::new(), stopped: false };
-    let mut prover = Prover {
-        coupling,
-        options,
-        ask,
-        store: Store::default(),
-        diagrams: Vec::new(),
-        known: Vec::new(),
-        begun: Default::default(),
+    let mut ask = Ask { solvers, seconds, go_on: &mut go_on, obligations: Vec::new(), stopped: false };
+    let mut found = None;
+    let outcome = match Formulas::of(coupling, options) {
+        Err((origin, outside)) => Err(Ended::Gap(Gap::Outside(origin, outside))),
+        Ok(mut formulas) => {
+            let mut prover = Prover::new(coupling, options, &mut ask, &mut formulas.store, &formulas.starts);
+            let machines = [&formulas.machines[ABSTRACT], &formulas.machines[CONCRETE]];
+            let outcome = prover.all(machines, &formulas.related, &formulas.begun);
+            let failing = prover.asked;
+            (proof.diagrams, proof.known) = (prover.diagrams, prover.known);
+            if let (Err(Ended::Gap(Gap::Stuck(..))), false) = (&outcome, ask.stopped || depth == 0) {
+                ask.seconds = seconds.min(SECONDS);
+                let (runs, refuted) = look(coupling, options, &mut formulas, &mut ask, depth, Some(failing));
+                // Whoever has had enough by now still wants to know where the proof does not go on.
+                ask.stopped = false;
+                report.runs = Some(Box::new(runs));
+                found = refuted;
+            }
+            outcome
+        }
     };
-    let outcome = prover.all();
-    let Prover { ask, diagrams, known, .. } = prover;
     let Ask { obligations, stopped, .. } = ask;
     proof.obligations = obligations;
-    proof.diagrams = diagrams;
-    proof.known = known;
     let alone = proof.obligations.iter().any(|obligation| !obligation.is_accepted());
     proof.gap = match outcome {
         _ if stopped => Some(Gap::Stopped),
@@ -112,6 +103,7 @@ pub fn prove(
         Ok(()) => None,
     };
     report.verdict = match &proof.gap {
+        _ if found.is_some() => found.unwrap_or(Verdict::Refines),
         None => Verdict::Refines,
         Some(Gap::Stopped) => {
             let asked = |side: usize| options.extents[side].interrupt.cause();

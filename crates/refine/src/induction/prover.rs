@@ -4,27 +4,22 @@
 //! the initial states, and whether the question says something; [`super::steps`] asks about the diagrams. INVARIANT: where
 //! [`Prover::all`] comes to its end no solver denies an obligation, and none was left out.
 
-use std::collections::BTreeMap;
-
-use explore::{Start, Told, input_values};
+use explore::Told;
 use solve::Outside;
 use solve::shared::{Node, Terms};
 
-use super::ask::{Ask, Model};
-use super::diagrams::{Answer, Diagrams};
-use super::proof::{Gap, Known, Origin, Said, Stuck};
-use super::related::{Locations, Related, read, related};
-use super::symbolic::{Replacement, Store, Subject, Symbolic, input_location, nowhere};
+use super::proof::{Gap, Known, Stuck};
 use crate::coupling::Coupling;
+use crate::formulas::Begun;
+use crate::formulas::ask::{Ask, Model};
+use crate::formulas::diagrams::{Answer, Diagrams};
+use crate::formulas::obligation::{Origin, Said};
+use crate::formulas::related::Related;
+use crate::formulas::symbolic::{Replacement, Store, Symbolic};
 use crate::options::Options;
-use crate::product::{Node as GameNode, NodeId};
-use crate::refine::product;
 use crate::report::Vacuous;
-use crate::side::StateId;
 use crate::{ABSTRACT, CONCRETE};
 
-/// LIMIT: so many initial states of a machine.
-const STARTS: usize = 256;
 /// Why a proof ends early.
 pub(super) enum Ended {
     Gap(Gap),
@@ -45,118 +40,41 @@ pub(super) fn outside(origin: Origin) -> impl Fn(Outside) -> Ended {
 pub(super) struct Prover<'p, 's, 'w> {
     pub coupling: &'p Coupling,
     pub options: &'p Options,
-    pub ask: Ask<'s, 'w>,
-    pub store: Store,
+    pub ask: &'p mut Ask<'s, 'w>,
+    pub store: &'p mut Store,
     pub diagrams: Vec<(u32, u32)>,
     pub known: Vec<Known>,
     /// By side, what the first initial state took from outside.
     pub begun: [Told; 2],
+    /// The condition of the last obligation.
+    pub asked: Node,
 }
-
-/// An initial state of the concrete machine, and one of the abstract machine that corresponds if there is one.
-type Begun = (usize, Option<usize>);
 
 /// Where a diagram may end: that it comes so far, and the answers then.
 pub(super) type End = (u32, Node, Vec<Answer>);
 
-impl Prover<'_, '_, '_> {
+impl<'p, 's, 'w> Prover<'p, 's, 'w> {
+    /// A proof about the formulas of a store, and the initial states of which they were made.
+    pub fn new(
+        coupling: &'p Coupling,
+        options: &'p Options,
+        ask: &'p mut Ask<'s, 'w>,
+        store: &'p mut Store,
+        starts: &[Vec<Told>; 2],
+    ) -> Prover<'p, 's, 'w> {
+        let begun = [ABSTRACT, CONCRETE].map(|side| starts[side].first().cloned().unwrap_or_default());
+        Prover { coupling, options, ask, store, diagrams: Vec::new(), known: Vec::new(), begun, asked: Terms::FALSE }
+    }
+
     /// Asks all questions, until one of them ends the proof.
-    pub fn all(&mut self) -> Result<(), Ended> {
-        let coupling = self.coupling;
-        let (starts, begun) = self.starts()?;
-        self.begun = [ABSTRACT, CONCRETE].map(|side| starts[side].first().cloned().unwrap_or_default());
-        let limits = &self.options.extents[CONCRETE].limits;
-        let read = read(coupling, limits).map_err(outside(Origin::Coupling))?;
-        let nothing = Locations::default();
-        let mut machines = Vec::new();
-        for side in [ABSTRACT, CONCRETE] {
-            let program = &coupling.programs[side];
-            let extent = &self.options.extents[side];
-            if let Some(input) = extent.undefined.iter().next() {
-                let what = format!("{}, an input that may be undef", program.function(*input).name);
-                return Err(Gap::Outside(Origin::Side(side), nowhere(&what)).into());
-            }
-            let of = Subject {
-                side,
-                program,
-                limits: &extent.limits,
-                bounds: input_values(program, &extent.bounds, &Default::default()),
-                starts: &starts[side],
-                readers: &coupling.readers[side],
-                read: &read.states[side],
-                read_in_step: if side == CONCRETE { &read.steps } else { &nothing },
-            };
-            machines.push(Symbolic::of(&of, &mut self.store).map_err(outside(Origin::Side(side)))?);
-        }
-        let machines = [&machines[ABSTRACT], &machines[CONCRETE]];
-        self.keeps_no_input(machines[ABSTRACT], &starts[ABSTRACT])?;
-        let related = related(coupling, limits, machines, &mut self.store).map_err(outside(Origin::Coupling))?;
-        self.begin(machines, &related, &begun)?;
-        let invariants = self.invariants(machines, &related);
-        let hypothesis = self.hypothesis(machines, &related);
+    pub fn all(&mut self, machines: [&Symbolic; 2], related: &Related, begun: &[Begun]) -> Result<(), Ended> {
+        self.begin(machines, related, begun)?;
+        let invariants = self.invariants(machines, related);
+        let hypothesis = self.hypothesis(machines, related);
         let hypothesis = self.store.terms.and([hypothesis, invariants]);
-        self.sense(machines, &related, hypothesis)?;
-        let ends = self.steps(machines, &related, hypothesis)?;
+        self.sense(machines, related, hypothesis)?;
+        let ends = self.steps(machines, related, hypothesis)?;
         self.uses(&ends);
-        Ok(())
-    }
-
-    /// The initial states of both machines, and which correspond; by the machines themselves.
-    fn starts(&mut self) -> Result<([Vec<Told>; 2], Vec<Begun>), Ended> {
-        let none = |_| Ended::Gap(Gap::Outside(Origin::Coupling, nowhere("initial states that cannot be made again")));
-        let product = product(self.coupling, self.options).map_err(none)?;
-        let mut numbers: [BTreeMap<StateId, usize>; 2] = Default::default();
-        let mut starts: [Vec<Start>; 2] = Default::default();
-        for side in [ABSTRACT, CONCRETE] {
-            let all = if side == ABSTRACT { &product.initial } else { &product.begun };
-            for (_, state, start) in all.clone() {
-                if !numbers[side].contains_key(&state) {
-                    numbers[side].insert(state, starts[side].len());
-                    starts[side].push(start);
-                }
-            }
-            if starts[side].len() > STARTS {
-                let what = format!("more than {STARTS} initial states");
-                return Err(Gap::Outside(Origin::Side(side), nowhere(&what)).into());
-            }
-        }
-        let mut begun = Vec::new();
-        let mut open: Vec<NodeId> = vec![product.root];
-        while let Some(node) = open.pop() {
-            match &product.nodes[node as usize] {
-                GameNode::Deeds(deeds) => open.extend(deeds.iter().rev().map(|(_, node)| *node)),
-                GameNode::Choice(ways) => open.extend(ways),
-                GameNode::Answers(end) => {
-                    let first = end.answers.first().map(|(pair, _)| product.pairs[*pair as usize].0);
-                    let pair = (numbers[CONCRETE][&end.to], first.map(|state| numbers[ABSTRACT][&state]));
-                    if !begun.contains(&pair) {
-                        begun.push(pair);
-                    }
-                }
-                GameNode::Fault | GameNode::Open(_) => {
-                    let what = "inputs of initial states that have too many values";
-                    return Err(Gap::Outside(Origin::Coupling, nowhere(what)).into());
-                }
-            }
-        }
-        let told = [ABSTRACT, CONCRETE].map(|side| {
-            let of = |start: &Start| product.sides[side].explorer.told_of_start(*start);
-            starts[side].iter().map(of).collect()
-        });
-        Ok((told, begun))
-    }
-
-    /// An input that the abstract machine's initial state has looked at keeps its value in the first step, which no formula says.
-    fn keeps_no_input(&self, machine: &Symbolic, starts: &[Told]) -> Result<(), Ended> {
-        let used = machine.used_inputs(&self.store.terms);
-        let kept = |told: &Told| {
-            let mut read = told.inputs.iter().map(|(location, _)| location.function);
-            read.any(|function| used.iter().filter_map(input_location).any(|(other, ..)| other == function))
-        };
-        if starts.iter().any(kept) {
-            let what = "an input that the initial state of the abstract machine looks at, and its first step again";
-            return Err(Gap::Outside(Origin::Side(ABSTRACT), nowhere(what)).into());
-        }
         Ok(())
     }
 
@@ -171,6 +89,7 @@ impl Prover<'_, '_, '_> {
 
     /// An obligation; unless it is accepted, the state in which it fails if a solver has one.
     pub fn oblige(&mut self, name: &str, claim: &str, condition: Node) -> Result<(), Option<Model>> {
+        self.asked = condition;
         let model = self.ask.ask(&self.store.terms, name, claim, condition, false);
         let said = &self.ask.obligations[self.ask.last()].said;
         // Whether there are enough that accept it is judged at the end.
@@ -194,8 +113,9 @@ impl Prover<'_, '_, '_> {
     fn begin(&mut self, machines: [&Symbolic; 2], related: &Related, begun: &[Begun]) -> Result<(), Ended> {
         let terms = &mut self.store.terms;
         let mut any = Vec::new();
-        for (concrete, other) in begun {
-            let sides = [(CONCRETE, Some(*concrete)), (ABSTRACT, *other)];
+        for Begun { concrete, answers } in begun {
+            let other = answers.first().copied();
+            let sides = [(CONCRETE, Some(*concrete)), (ABSTRACT, other)];
             let mut all = Vec::new();
             for (side, start) in sides {
                 let Some(start) = start else { continue };
@@ -217,7 +137,7 @@ impl Prover<'_, '_, '_> {
     fn sense(&mut self, machines: [&Symbolic; 2], related: &Related, hypothesis: Node) -> Result<(), Ended> {
         let coupling = self.coupling;
         self.makes_sense("coupled", "the coupling holds of some pair of states", hypothesis, None)?;
-        let store = &mut self.store;
+        let store = &mut *self.store;
         // Two pairs whose states do not correspond crosswise: else the coupling is about each state alone.
         let mut copies = Vec::new();
         for id in machines.iter().flat_map(|machine| &machine.state) {
@@ -234,8 +154,8 @@ impl Prover<'_, '_, '_> {
         let apart = store.terms.not(crosswise);
         let node = store.terms.and([hypothesis, other, apart]);
         self.makes_sense("tells apart", "the coupling tells states apart", node, Some(Vacuous::Total))?;
-        let mut diagrams = Diagrams::new(coupling, machines, related, &mut self.store);
-        let step = diagrams.step(&mut self.store).map_err(outside(Origin::Side(ABSTRACT)))?;
+        let mut diagrams = Diagrams::new(coupling, machines, related, self.store);
+        let step = diagrams.step(self.store).map_err(outside(Origin::Side(ABSTRACT)))?;
         let node = self.store.terms.and([hypothesis, step.facts, step.goes, step.changed]);
         let claim = "the concrete machine makes a step that changes its state, from a pair that corresponds";
         self.makes_sense("a step", claim, node, Some(Vacuous::NoStep))

@@ -8,14 +8,15 @@ use explore::input_values;
 use machine::{Fault, FaultClass};
 use solve::shared::{Node, Terms};
 
-use super::answers::Offered;
-use super::diagrams::{Answer, Diagrams, Step};
-use super::proof::{Gap, Obligation, Origin, Said};
+use super::proof::Gap;
 use super::prover::{End, Ended, Prover, outside};
-use super::related::Related;
 use super::replay::{Scene, Stage, faults};
 use super::stuck;
-use super::symbolic::{Symbolic, class_in_words, nowhere};
+use crate::formulas::answers::Offered;
+use crate::formulas::diagrams::{Answer, Diagrams, Step};
+use crate::formulas::obligation::{Obligation, Origin, Said};
+use crate::formulas::related::Related;
+use crate::formulas::symbolic::{Symbolic, class_in_words, nowhere};
 use crate::{ABSTRACT, CONCRETE};
 
 /// LIMIT: so many diagrams are asked whether answers use them.
@@ -27,12 +28,12 @@ impl Prover<'_, '_, '_> {
         let coupling = self.coupling;
         let most = coupling.diagrams.most_concrete();
         let has_end = coupling.segment.is_some();
-        let mut diagrams = Diagrams::new(coupling, machines, related, &mut self.store);
+        let mut diagrams = Diagrams::new(coupling, machines, related, self.store);
         let mut path = hypothesis;
         let mut steps: Vec<Step> = Vec::new();
         let mut ends: Vec<End> = Vec::new();
         for n in 1..=most {
-            let step = diagrams.step(&mut self.store).map_err(outside(Origin::Side(ABSTRACT)))?;
+            let step = diagrams.step(self.store).map_err(outside(Origin::Side(ABSTRACT)))?;
             let here = self.store.terms.and([path, step.facts]);
             let (goes, ends_here, ends_stray) = (step.goes, step.ends, step.ends_stray);
             steps.push(step);
@@ -47,7 +48,7 @@ impl Prover<'_, '_, '_> {
                     return Err(Gap::Outside(Origin::Coupling, what).into());
                 }
             }
-            let answers = diagrams.answers(&mut self.store).map_err(outside(Origin::Side(ABSTRACT)))?;
+            let answers = diagrams.answers(self.store).map_err(outside(Origin::Side(ABSTRACT)))?;
             let answered = self.store.terms.or(answers.iter().map(|answer| answer.holds));
             let not = self.store.terms.not(answered);
             let ended = self.store.terms.and([gone, ends_here]);
@@ -95,10 +96,10 @@ impl Prover<'_, '_, '_> {
         let Err(model) = self.oblige(&format!("step {n} made"), &claim, fails) else { return Ok(()) };
         let stuck = model.map(|model| {
             let of = step.faults.iter().map(|(words, node)| (*node, words));
-            let fault = stuck::which(&self.store, &model, of).copied().unwrap_or("a fault");
-            let scene = stuck::before(&self.store, machines[CONCRETE], &model, step);
+            let fault = stuck::which(self.store, &model, of).copied().unwrap_or("a fault");
+            let scene = stuck::before(self.store, machines[CONCRETE], &model, step);
             let words = Some(fault.to_string());
-            let mut stuck = stuck::tell(&mut self.store, self.coupling, machines, &model, steps, &[], words);
+            let mut stuck = stuck::tell(self.store, self.coupling, machines, &model, steps, &[], words);
             // What the solver says it comes to goes before what else the machine may come to.
             let is_said = |other: &Fault| class_in_words(FaultClass::of(other)) == fault;
             stuck.faults[CONCRETE] = self.faults(CONCRETE, scene, is_said);
@@ -119,7 +120,7 @@ impl Prover<'_, '_, '_> {
         let Err(model) = self.oblige(&format!("step {n} told"), &claim, fails) else { return Ok(()) };
         let which = model.and_then(|model| {
             let of = step.strays.iter().map(|(node, outside)| (*node, outside));
-            stuck::which(&self.store, &model, of).cloned()
+            stuck::which(self.store, &model, of).cloned()
         });
         Err(match which {
             Some(what) => Gap::Outside(Origin::Side(CONCRETE), what).into(),
@@ -141,9 +142,9 @@ impl Prover<'_, '_, '_> {
         let Err(model) = self.oblige(&format!("step {n} answered"), &claim, unmatched) else { return Ok(()) };
         let stuck = model.map(|model| {
             let answers: Vec<Answer> = ends.last().map(|(.., answers)| answers.clone()).unwrap_or_default();
-            let mut stuck = stuck::tell(&mut self.store, self.coupling, machines, &model, steps, &answers, None);
+            let mut stuck = stuck::tell(self.store, self.coupling, machines, &model, steps, &answers, None);
             if answers.iter().any(|answer| answer.m > 0) {
-                let scene = stuck::behind(&mut self.store, machines[ABSTRACT], &model, offered);
+                let scene = stuck::behind(self.store, machines[ABSTRACT], &model, offered);
                 stuck.faults[ABSTRACT] = self.faults(ABSTRACT, scene, |_| false);
             }
             stuck
@@ -176,7 +177,7 @@ impl Prover<'_, '_, '_> {
         let claim = format!("a segment has at most {counted} of the concrete machine");
         let Err(model) = self.oblige("segment over", &claim, path) else { return Ok(true) };
         let fault = Some(format!("a segment that does not end within {counted}"));
-        let stuck = model.map(|model| stuck::tell(&mut self.store, self.coupling, machines, &model, steps, &[], fault));
+        let stuck = model.map(|model| stuck::tell(self.store, self.coupling, machines, &model, steps, &[], fault));
         Err(self.gap(stuck))
     }
 

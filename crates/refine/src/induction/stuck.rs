@@ -7,61 +7,22 @@ use std::collections::BTreeMap;
 
 use machine::{Location, Show, Value};
 use solve::session::Constant;
-use solve::shared::{Kind, Node, Terms, VariableId, value_at};
-use solve::symbol::{Codes, Shape, value_of};
+use solve::shared::{Node, VariableId, value_at};
+use solve::symbol::value_of;
 
-use super::answers::Offered;
-use super::ask::Model;
-use super::diagrams::{Answer, Step};
 use super::proof::{Attempt, Stuck};
 use super::replay::Scene;
-use super::symbolic::{Store, Symbolic, input_location};
 use crate::coupling::Coupling;
+use crate::formulas::answers::Offered;
+use crate::formulas::ask::Model;
+use crate::formulas::diagrams::{Answer, Step};
+use crate::formulas::symbolic::{Store, Symbolic, input_location};
+use crate::formulas::values::{least, values};
 use crate::why::Differs;
 use crate::{ABSTRACT, CONCRETE};
 
 /// LIMIT: so many of the best candidates are told.
 const TRIED: usize = 3;
-
-/// The values of all terms in a solver's state.
-struct Values<'s> {
-    codes: &'s Codes,
-    of: Vec<Option<Constant>>,
-}
-
-impl Values<'_> {
-    fn truth(&self, node: Node) -> bool {
-        value_at(&self.of, node) == Some(Constant::Boolean(true))
-    }
-
-    fn value(&self, shape: Shape, node: Node) -> Option<Value> {
-        value_of(self.codes, shape, value_at(&self.of, node)?)
-    }
-
-    /// The values of a machine's locations; of those alone that the solver was told of, if a model is given.
-    fn state(&self, machine: &Symbolic, state: &[Node], model: Option<&Model>) -> Vec<(Location, Value)> {
-        let mut at = 0;
-        let mut found = Vec::new();
-        for place in &machine.places {
-            let node = state[at];
-            let is_told = model.is_none_or(|model| {
-                let own = machine.state.get(at..at + 1 + usize::from(place.defined != Terms::TRUE));
-                own.is_some_and(|own| own.iter().any(|id| model.contains_key(id)))
-            });
-            at += 1;
-            let mut defined = true;
-            if place.defined != Terms::TRUE {
-                defined = self.truth(state[at]);
-                at += 1;
-            }
-            let value = if defined { self.value(place.shape, node) } else { Some(Value::Undef) };
-            if is_told {
-                found.extend(value.map(|value| (place.location.clone(), value)));
-            }
-        }
-        found
-    }
-}
 
 /// Tells a pair of states, the steps from there, and the answers to the last of them.
 pub(super) fn tell(
@@ -119,22 +80,6 @@ pub(super) fn tell(
     tried.sort_by_key(|attempt| (attempt.parts.len(), attempt.m == 0));
     tried.truncate(TRIED);
     Stuck { states, steps: made, fault, tried, faults: Default::default() }
-}
-
-/// The values of all terms; the least ones of variables that the solver was not told of.
-fn values<'s>(store: &'s Store, model: &Model) -> Values<'s> {
-    let terms = &store.terms;
-    let value = |id: VariableId| Some(model.get(&id).copied().unwrap_or_else(|| least(terms, id)));
-    Values { codes: &store.codes, of: terms.values(&value) }
-}
-
-fn least(terms: &Terms, id: VariableId) -> Constant {
-    let variable = terms.variable_of(id);
-    match variable.kind {
-        Kind::Boolean => Constant::Boolean(false),
-        Kind::Integer => Constant::Integer(variable.bounds.0.unwrap_or(0)),
-        Kind::Real => Constant::Real(0.0),
-    }
 }
 
 /// The state that a concrete step begins in, with its inputs; none if it has values that no machine has.

@@ -13,13 +13,13 @@ use solve::symbol::{Open, Shape, Symbol};
 use super::symbolic::{Store, nowhere};
 
 /// A direction: what a value is on the other side.
-pub(super) type Through<'t> = &'t dyn Fn(&Value) -> Option<Value>;
+pub(crate) type Through<'t> = &'t dyn Fn(&Value) -> Option<Value>;
 
 /// A symbol on the other side, and the condition under which it has no value there.
 ///
 /// # Errors
 /// Values of its domain are not taken over.
-pub(super) fn across(
+pub(crate) fn across(
     store: &mut Store,
     program: &Program,
     domain: DomainId,

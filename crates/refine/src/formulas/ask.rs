@@ -9,16 +9,32 @@ use rustc_hash::FxHashMap;
 use solve::session::{Constant, Silence, Solvers, Verdict, constants, verdict};
 use solve::shared::{Kind, Node, Script, Terms, VariableId};
 
-use super::proof::{Obligation, Said};
+use super::obligation::{Obligation, Said};
 
 /// Bounds of numbers in which a state to show is searched first.
 const SMALL: [i128; 2] = [9, 999];
 
+/// The solvers and how long they may take.
+pub struct Provers<'s> {
+    /// Two of them must accept each obligation.
+    pub solvers: Vec<&'s mut dyn Solvers>,
+    /// For each question, in seconds.
+    pub seconds: u32,
+    /// The most steps of runs that are looked at.
+    pub depth: u64,
+}
+
+impl std::fmt::Debug for Provers<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Provers").field("seconds", &self.seconds).finish_non_exhaustive()
+    }
+}
+
 /// The values that a solver gave to variables.
-pub(super) type Model = FxHashMap<VariableId, Constant>;
+pub(crate) type Model = FxHashMap<VariableId, Constant>;
 
 /// See the module.
-pub(super) struct Ask<'s, 'w> {
+pub(crate) struct Ask<'s, 'w> {
     pub solvers: Vec<&'s mut dyn Solvers>,
     /// For each question, in seconds.
     pub seconds: u32,
@@ -48,6 +64,38 @@ impl Ask<'_, '_> {
         }
         self.obligations.push(Obligation { name: name.to_string(), claim: claim.to_string(), script, sense, said });
         model
+    }
+
+    /// What each solver says of a condition, to the first that has a state in which it holds; and that state.
+    pub fn look(&mut self, terms: &Terms, condition: Node) -> (Vec<Said>, Option<Model>) {
+        if condition == Terms::FALSE {
+            return (vec![Said::Impossible; self.solvers.len()], None);
+        }
+        let variables = terms.variables_of([condition]);
+        let script = script(terms, &variables, condition, "", true);
+        let mut said = Vec::new();
+        for index in 0..self.solvers.len() {
+            let (answer, found) = self.one(terms, index, &script, &variables);
+            said.push(answer);
+            if let Some(found) = found {
+                return (said, Some(self.plainer(terms, index, &script, &variables, found)));
+            }
+            if self.stopped {
+                break;
+            }
+        }
+        (said, None)
+    }
+
+    /// Whether a condition cannot hold, on the word of all solvers.
+    pub fn denied(&mut self, terms: &Terms, condition: Node) -> bool {
+        if condition == Terms::FALSE {
+            return true;
+        }
+        let variables = terms.variables_of([condition]);
+        let script = script(terms, &variables, condition, "", true);
+        let mut each = 0..self.solvers.len();
+        !self.solvers.is_empty() && each.all(|index| self.one(terms, index, &script, &variables).0 == Said::Impossible)
     }
 
     /// Whether a condition can hold, on the word of the first solver: for what is told and not relied on.
@@ -109,6 +157,11 @@ impl Ask<'_, '_> {
                 (Said::Possible, Some(model))
             }
         }
+    }
+
+    /// The solvers that have a name, with their versions.
+    pub fn names(&self) -> Vec<String> {
+        self.solvers.iter().filter_map(|solver| solver.name().ok()).collect()
     }
 
     /// The index of the last obligation.

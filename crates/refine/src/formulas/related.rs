@@ -24,11 +24,11 @@ use crate::{ABSTRACT, CONCRETE};
 const ROWS: usize = 10_000;
 
 /// Locations of a machine that are read.
-pub(super) type Locations = BTreeSet<(FunctionId, Vec<Value>)>;
+pub(crate) type Locations = BTreeSet<(FunctionId, Vec<Value>)>;
 
 /// What the coupling reads of each machine.
 #[derive(Default)]
-pub(super) struct Read {
+pub(crate) struct Read {
     /// Of its states.
     pub states: [Locations; 2],
     /// Of the concrete machine's steps, with their inputs.
@@ -37,14 +37,14 @@ pub(super) struct Read {
 
 /// A term over both states.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Measure {
+pub(crate) struct Measure {
     pub value: Node,
     /// It has a value.
     pub known: Node,
 }
 
 /// See the module.
-pub(super) struct Related {
+pub(crate) struct Related {
     /// The parts of the relation.
     pub parts: Vec<Node>,
     /// Not all of it was encoded.
@@ -119,7 +119,7 @@ fn rows(coupling: &Coupling, machine: &mut Machine, function: FunctionId) -> Res
 ///
 /// # Errors
 /// It is too much.
-pub(super) fn read(coupling: &Coupling, limits: &Limits) -> Result<Read, Outside> {
+pub(crate) fn read(coupling: &Coupling, limits: &Limits) -> Result<Read, Outside> {
     let mut machine = joint_machine(coupling, limits);
     let mut read = Read::default();
     let bridges = &coupling.joint.bridges;
@@ -162,7 +162,7 @@ fn joint_machine(coupling: &Coupling, limits: &Limits) -> Machine {
 ///
 /// # Errors
 /// What cannot be encoded.
-pub(super) fn related(
+pub(crate) fn related(
     coupling: &Coupling,
     limits: &Limits,
     machines: [&Symbolic; 2],

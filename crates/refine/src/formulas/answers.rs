@@ -21,14 +21,14 @@ const VALUES: i128 = 256;
 const TERMS: usize = 3_000_000;
 
 /// A value that an input may have, and the condition under which it may.
-pub(super) type Value = (Node, Node);
+pub(crate) type Value = (Node, Node);
 
 /// By input of the abstract machine, the values that it had so far in a diagram.
-pub(super) type Offered = FxHashMap<VariableId, Vec<Value>>;
+pub(crate) type Offered = FxHashMap<VariableId, Vec<Value>>;
 
 /// A run of the abstract machine.
 #[derive(Debug, Clone)]
-pub(super) struct Run {
+pub(crate) struct Run {
     /// It can be made.
     pub made: Node,
     /// The values of the state's variables behind it.
@@ -39,7 +39,7 @@ pub(super) struct Run {
 ///
 /// # Errors
 /// There are too many.
-pub(super) fn runs(
+pub(crate) fn runs(
     machine: &Symbolic,
     store: &mut Store,
     names: &dyn Fn(FunctionId) -> String,

@@ -21,7 +21,7 @@ use crate::{CONCRETE, SIDES};
 
 /// The terms and codes of both machines and the coupling.
 #[derive(Debug, Default)]
-pub(super) struct Store {
+pub(crate) struct Store {
     pub terms: Terms,
     pub codes: Codes,
 }
@@ -56,7 +56,7 @@ impl Store {
 
 /// Terms that stand for variables.
 #[derive(Debug, Default)]
-pub(super) struct Replacement {
+pub(crate) struct Replacement {
     of: FxHashMap<VariableId, Node>,
     made: FxHashMap<Node, Node>,
 }
@@ -69,7 +69,7 @@ impl Replacement {
 }
 
 /// A machine, what it starts from, and what of it the coupling reads.
-pub(super) struct Subject<'a> {
+pub(crate) struct Subject<'a> {
     pub side: usize,
     pub program: &'a Arc<Program>,
     pub limits: &'a Limits,
@@ -85,10 +85,10 @@ pub(super) struct Subject<'a> {
 }
 
 /// What the coupling reads of a state: the value, and the condition under which it cannot be evaluated.
-pub(super) type Reads = FxHashMap<(FunctionId, Vec<Value>), (Symbol, Node)>;
+pub(crate) type Reads = FxHashMap<(FunctionId, Vec<Value>), (Symbol, Node)>;
 
 /// See the module.
-pub(super) struct Symbolic {
+pub(crate) struct Symbolic {
     /// The locations of the state.
     pub places: Vec<Place>,
     /// The variables of the state: for each place its value and, if it may be undef, whether it is defined.
@@ -229,7 +229,7 @@ impl Symbolic {
 }
 
 /// Something outside that has no place of its own.
-pub(super) fn nowhere(what: &str) -> Outside {
+pub(crate) fn nowhere(what: &str) -> Outside {
     Outside { what: what.to_string(), span: syntax::Span { file: syntax::FileId(0), start: 0, end: 0 } }
 }
 
@@ -395,7 +395,7 @@ fn encode(
 }
 
 /// The faults of a class in words.
-pub(super) fn class_in_words(class: FaultClass) -> &'static str {
+pub(crate) fn class_in_words(class: FaultClass) -> &'static str {
     match class {
         FaultClass::Inconsistent => "an inconsistent update",
         FaultClass::OutOfDomain => "an update outside its domain",
@@ -422,7 +422,7 @@ fn look_up(
 }
 
 /// The location that an input is the value of.
-pub(super) fn input_location(input: &Input) -> Option<(FunctionId, &[Value], Shape)> {
+pub(crate) fn input_location(input: &Input) -> Option<(FunctionId, &[Value], Shape)> {
     match &input.kind {
         InputKind::Location(function, arguments, shape) => Some((*function, arguments, *shape)),
         InputKind::Pick | InputKind::Number | InputKind::Rounding => None,

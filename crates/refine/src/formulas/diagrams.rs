@@ -22,7 +22,7 @@ use crate::{ABSTRACT, CONCRETE};
 
 /// An answer of the abstract machine.
 #[derive(Debug, Clone)]
-pub(super) struct Answer {
+pub(crate) struct Answer {
     pub m: u32,
     /// Its steps can be made.
     pub made: Node,
@@ -33,7 +33,7 @@ pub(super) struct Answer {
 }
 
 /// A concrete step.
-pub(super) struct Step {
+pub(crate) struct Step {
     /// Facts about its inputs.
     pub facts: Node,
     /// The kinds of faults.
@@ -48,13 +48,15 @@ pub(super) struct Step {
     pub ends_stray: Node,
     /// The inputs' own variables.
     pub inputs: Vec<(Input, VariableId)>,
+    /// What this step offers to inputs of the abstract machine.
+    pub offered: Offered,
     /// The values of the state's variables before and behind it.
     pub from: Vec<Node>,
     pub to: Vec<Node>,
 }
 
 /// See the module.
-pub(super) struct Diagrams<'d> {
+pub(crate) struct Diagrams<'d> {
     pub coupling: &'d Coupling,
     pub machines: [&'d Symbolic; 2],
     pub related: &'d Related,
@@ -74,6 +76,16 @@ impl<'d> Diagrams<'d> {
         store: &mut Store,
     ) -> Diagrams<'d> {
         let state = machines[CONCRETE].here(&mut store.terms);
+        Diagrams::from(coupling, machines, related, state)
+    }
+
+    /// No step is made from a state of the concrete machine.
+    pub fn from(
+        coupling: &'d Coupling,
+        machines: [&'d Symbolic; 2],
+        related: &'d Related,
+        state: Vec<Node>,
+    ) -> Diagrams<'d> {
         Diagrams { coupling, machines, related, state, offered: Offered::default(), steps: 0 }
     }
 
@@ -105,7 +117,9 @@ impl<'d> Diagrams<'d> {
         let goes = store.replaced(machine.goes, &mut by);
         let changed = store.replaced(machine.changed, &mut by);
         let to: Vec<Node> = machine.next.iter().map(|node| store.replaced(*node, &mut by)).collect();
-        facts.extend(self.offer(store, &mut by, &inputs)?);
+        let mut offered = Offered::default();
+        facts.extend(self.offer(store, &mut by, &inputs, &mut offered)?);
+        add(&mut self.offered, &offered);
         let mut there = Replacement::new(machine.state.iter().copied().zip(to.iter().copied()));
         let admitted = store.replaced(machine.perhaps, &mut there);
         let ends = store.replaced(self.related.ends, &mut there);
@@ -120,6 +134,7 @@ impl<'d> Diagrams<'d> {
             ends,
             ends_stray,
             inputs,
+            offered,
             from,
             to,
         })
@@ -128,10 +143,11 @@ impl<'d> Diagrams<'d> {
     /// Offers the values that this step gives to inputs of the abstract machine; returns facts about those at which the concrete machine
     /// does not look.
     fn offer(
-        &mut self,
+        &self,
         store: &mut Store,
         by: &mut Replacement,
         inputs: &[(Input, VariableId)],
+        offered: &mut Offered,
     ) -> Result<Vec<Node>, Outside> {
         let coupling = self.coupling;
         let mut facts = Vec::new();
@@ -179,7 +195,7 @@ impl<'d> Diagrams<'d> {
                     }
                 }
             };
-            let offered = self.offered.entry(id).or_default();
+            let offered = offered.entry(id).or_default();
             let open = match symbol {
                 Symbol::Open(open) if open.shape == shape => open,
                 Symbol::Known(ref value) if Shape::of(value) == shape && !value.is_undef() => {
@@ -286,6 +302,18 @@ impl<'d> Diagrams<'d> {
         let zero = store.terms.integer(0);
         let (positive, less) = (store.terms.at_most(zero, before.value), store.terms.less(value, before.value));
         store.terms.and([before.known, known, positive, less])
+    }
+}
+
+/// Adds what a step offers to what was offered before.
+pub(crate) fn add(offered: &mut Offered, more: &Offered) {
+    for (id, values) in more {
+        let all = offered.entry(*id).or_default();
+        values.iter().for_each(|value| {
+            if !all.contains(value) {
+                all.push(*value);
+            }
+        });
     }
 }
 
