@@ -109,11 +109,11 @@ msrv: ## the workspace, checked by the oldest Rust that Cargo.toml promises, if 
 	    CARGO_TARGET_DIR=target/oldest rustup run $(OLDEST) cargo check --workspace --locked; \
 	else echo "msrv: not checked: Rust $(OLDEST) is not installed (rustup toolchain install $(OLDEST) --profile minimal)"; fi
 
-verify: $(GROUNDSTATE) ## the pattern library's properties in every state, its seeded faults found, its refinements, the reference systems counted: minutes, 4 GB
+verify: $(GROUNDSTATE) ## the pattern library's properties in every state, its seeded faults found, mutants of library and examples, its refinements, the reference systems counted: minutes, 4 GB
 	sh cpp/install.sh z3 cvc5
 	sh library/verification/verify.sh $(GROUNDSTATE) expected.txt expected-long.txt
 	sh library/refinement/refine.sh $(GROUNDSTATE) $(REFINEMENTS:%=%/expected.txt) $(REFINEMENTS:%=%/expected-long.txt)
-	sh library/verification/mutants.sh $(GROUNDSTATE) mutants.txt
+	sh library/verification/mutants.sh $(GROUNDSTATE) library/verification/mutants.txt examples/mutants.txt
 	sh examples/sorting_cell/check.sh $(GROUNDSTATE) whole
 
 cpp: ## the C++ runtime and the cameras: their tests as they are; the runtime's under ThreadSanitizer, too

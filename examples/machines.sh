@@ -81,7 +81,8 @@ visual_servoing() {
     found ltlSpec_guided Arm.asm "if isGuided then" "if isGuided and arm != STOPPING then"
     found ltlSpec_stops Arm.asm "if arm = FOLLOWING or arm = STOPPING" "if arm = STOPPING"
     found ltlSpec_rests Arm.asm "arm = STOPPING and not isStill then" "arm = STOPPING and isStill then"
-    # Each machine is right by itself; for how many images discs are made up for is told by the scenario alone.
+    found ctlSpec_patient Servoing.asm "patience = 10" "patience = 9"
+    # The scenario of the whole robot tells, too, for how many images discs are made up for.
     fails ControllerModes Servoing.asm "patience = 10" "patience = 9"
     # A rule written by hand that decides in the machine's place.
     seeded ControllerSystem.asm "sb_staged(vs_to_robot) := sb_received(camera_to_vs)" "guiding := true"
@@ -120,7 +121,8 @@ object_tracking() {
     found inv_patience Head.asm "if unseen + 1 = patience then aim := HOLDING endif" "skip"
     found ltlSpec_givesUp Head.asm "unseen := unseen + 1" "unseen := if unseen + 2 = patience then unseen else unseen + 1 endif"
     found ctlSpec_atOnce Head.asm "aim := FOLLOWING" "aim := if unseen = patience then aim else FOLLOWING endif"
-    # Each machine is right by itself; how long the head waits shows in the whole robot alone.
+    found ctlSpec_patient Head.asm "patience = 60" "patience = 50"
+    # How long the head waits shows in the whole robot, too.
     fails Lost Head.asm "patience = 60" "patience = 50"
 }
 
@@ -149,7 +151,7 @@ micro_assembly() {
     staged ltlSpec_follows "(isSeen or unseen < patience)" "isSeen and unseen < patience"
     staged ltlSpec_corrects "isNewGuidance and second(guidance) != HIDDEN" "isNewGuidance"
     staged ltlSpec_up "if isUp then" "if not isUp then"
-    # Right by itself, whatever it waits for; but images do not come so fast.
+    # Images do not come so fast.
     fails OnePart Stage.asm "patience = 50" "patience = 5"
 }
 

@@ -3,6 +3,7 @@
 asm CoffeeMachine
 
 import ../../library/std/StandardLibrary
+import ../../library/std/CTLLibrary
 
 signature:
 	enum domain Product = {COFFEE | TEA | MILK}
@@ -85,8 +86,60 @@ definitions:
 
 	// money is neither made nor lost
 	invariant inv_cash over cash, sold: cash = 100 + sold
-	invariant inv_credit over credit: credit >= 0
+	invariant inv_credit over credit: credit >= 0 and credit mod 10 = 0
 	invariant inv_portions over portions: (forall $p in Product with portions($p) >= 0)
+
+	// the list of prices, and what each sale makes of money and stock
+	invariant inv_prices over price: price(COFFEE) = 70 and price(TEA) = 60 and price(MILK) = 40
+	invariant inv_stock over portions, sold:
+		sold = 70 * (5 - portions(COFFEE)) + 60 * (5 - portions(TEA)) + 40 * (1 - portions(MILK))
+
+	CTLSPEC ctlSpec_begins: credit = 0 and returned = 0 and display = "ready"
+	// a coin is credit, whatever is pressed
+	CTLSPEC ctlSpec_insert:
+		(forall $c in {0, 10, 20, 30, 40, 50, 60}, $coin in {10, 20, 50} with
+			ag(
+				credit = $c and inserted = $coin
+				implies ax(credit = $c + $coin and returned = 0 and display = concat("credit ", toString($c + $coin)))))
+	// what is pressed is sold if it is there and paid for; the rest of the credit comes back
+	CTLSPEC ctlSpec_coffee:
+		(forall $c in {70, 80, 90, 100, 110} with
+			ag(
+				inserted = 0 and pressed = PUSH_COFFEE and credit = $c and portions(COFFEE) > 0
+				implies ax(display = "enjoy your coffee" and credit = 0 and returned = $c - 70)))
+	CTLSPEC ctlSpec_tea:
+		(forall $c in {60, 70, 80, 90, 100, 110} with
+			ag(
+				inserted = 0 and pressed = PUSH_TEA and credit = $c and portions(TEA) > 0
+				implies ax(display = "enjoy your tea" and credit = 0 and returned = $c - 60)))
+	CTLSPEC ctlSpec_milk:
+		(forall $c in {40, 50, 60, 70, 80, 90, 100, 110} with
+			ag(
+				inserted = 0 and pressed = PUSH_MILK and credit = $c and portions(MILK) > 0
+				implies ax(display = "enjoy your milk" and credit = 0 and returned = $c - 40)))
+	// nothing is sold without need, and it is said why
+	CTLSPEC ctlSpec_soldOut:
+		ag(
+			inserted = 0
+				and (
+					pressed = PUSH_COFFEE and portions(COFFEE) = 0
+					or pressed = PUSH_TEA and portions(TEA) = 0
+					or pressed = PUSH_MILK and portions(MILK) = 0)
+			implies ax(display = "sold out"))
+	CTLSPEC ctlSpec_missing:
+		(forall $c in {0, 10, 20, 30} with
+			ag(
+				inserted = 0 and pressed = PUSH_MILK and credit = $c and portions(MILK) > 0
+				implies ax(display = concat("missing ", toString(40 - $c)) and credit = $c)))
+	// the button for it gives all credit back; without a button nothing happens
+	CTLSPEC ctlSpec_return:
+		(forall $c in {0, 50, 110} with
+			ag(
+				inserted = 0 and pressed = PUSH_RETURN and credit = $c
+				implies ax(display = "cancelled" and credit = 0 and returned = $c)))
+	CTLSPEC ctlSpec_rests:
+		(forall $c in {0, 50, 110} with
+			ag(inserted = 0 and pressed = NO_BUTTON and credit = $c implies ax(credit = $c)))
 
 	main rule r_Main =
 		if inserted > 0 then

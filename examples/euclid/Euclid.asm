@@ -3,6 +3,7 @@
 asm Euclid
 
 import ../../library/std/StandardLibrary
+import ../../library/std/CTLLibrary
 
 signature:
 	domain Operand subsetof Integer
@@ -49,6 +50,9 @@ definitions:
 	invariant inv_agree over byLoop, byRecursion: byLoop = byRecursion
 	invariant inv_result over larger: not finished or larger = byLoop
 
+	// it comes to an end, and 12 is the result
+	CTLSPEC ctlSpec_ends: af(finished and larger = 12 and byLoop = 12)
+
 	main rule r_Main =
 		if not finished then
 			par
@@ -64,6 +68,7 @@ definitions:
 default init s0:
 	function larger = 84
 	function smaller = 120
-	function byLoop = 12
-	function byRecursion = 12
+	// not computed yet
+	function byLoop = 0
+	function byRecursion = 0
 	function commonDivisors = {1, 2, 3, 4, 6, 12}

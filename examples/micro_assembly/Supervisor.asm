@@ -36,6 +36,9 @@ definitions:
 	LTLSPEC ltlSpec_failed: g(ending = FAILED implies s(ending = FAILED, y(state = RETRACTED)))
 	CTLSPEC ctlSpec_over: ag(isDef(ending) implies ag(recipe = REST))
 
+	/* it begins at rest */
+	LTLSPEC ltlSpec_begins: recipe = REST and isUndef(ending)
+
 	/* the part is lowered only when it was told, while it was to be aligned, that it is */
 	LTLSPEC ltlSpec_aligned: g(recipe = LOWER implies s(recipe = LOWER, y(recipe = ALIGN and state = ALIGNED)))
 	/* the stage that has retracted is not driven on */

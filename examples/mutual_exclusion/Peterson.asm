@@ -46,6 +46,12 @@ definitions:
 		endswitch
 
 	CTLSPEC ctlSpec_exclusion: ag(not (place(LEFT) = CRITICAL and place(RIGHT) = CRITICAL))
+	// Both are elsewhere at first. Whoever wants to enter has said so, and whoever leaves is elsewhere and does not want to any more.
+	LTLSPEC ltlSpec_begins: (forall $p in Process with place($p) = IDLE) and turn = LEFT
+	LTLSPEC ltlSpec_leaves:
+		(forall $p in Process with g(y(place($p) = CRITICAL) implies place($p) = CRITICAL or place($p) = IDLE))
+	invariant inv_wants over wants, place:
+		(forall $p in Process with wants($p) iff place($p) != IDLE and place($p) != ASKING)
 	CTLSPEC ctlSpec_canEnter: (forall $p in Process with ag(ef(place($p) = CRITICAL)))
 	// Nobody enters who has not asked since it was there last.
 	LTLSPEC ltlSpec_asked:

@@ -34,6 +34,8 @@ definitions:
 	LTLSPEC ltlSpec_givesUp: f(g(not (isNewSight and sight))) implies f(g(aim = HOLDING))
 	/* it follows at once, and stands only if the object was not seen */
 	CTLSPEC ctlSpec_atOnce: ag(isNewSight and sight implies ax(aim = FOLLOWING and unseen = 0))
+	/* an object that is not seen is followed for 300 ms */
+	CTLSPEC ctlSpec_patient: ef(aim = FOLLOWING and unseen = 59)
 	CTLSPEC ctlSpec_again: ag(ef(aim = FOLLOWING) and ef(aim = HOLDING))
 
 	main rule r_Main =

@@ -3,6 +3,8 @@
 asm Philosophers
 
 import ../../library/std/StandardLibrary
+import ../../library/std/CTLLibrary
+import ../../library/std/LTLLibrary
 
 signature:
 	domain Philosopher subsetof Agent
@@ -81,6 +83,27 @@ definitions:
 	// nobody holds a single fork
 	invariant inv_bothOrNone over owner:
 		(forall $p in Philosopher with (owner(leftFork($p)) = $p) iff (owner(rightFork($p)) = $p))
+
+	// each fork lies on the left of one philosopher and on the right of another one
+	invariant inv_table over owner:
+		(forall $f in Fork with
+			(exist unique $p in Philosopher with leftFork($p) = $f)
+			and (exist unique $q in Philosopher with rightFork($q) = $f))
+		and (forall $p in Philosopher with leftFork($p) != rightFork($p))
+
+	// nobody eats at first; who is hungry can take the forks if both are free, who is not can put them back
+	LTLSPEC ltlSpec_begins: (forall $p in Philosopher with not eating($p) and meals($p) = 0)
+	CTLSPEC ctlSpec_takes: (forall $p in Philosopher with ag(hungry($p) and canEat($p) implies ex(eating($p))))
+	CTLSPEC ctlSpec_drops: (forall $p in Philosopher with ag(eating($p) and not hungry($p) implies ex(canEat($p))))
+	LTLSPEC ltlSpec_hungry:
+		(forall $p in Philosopher with g(eating($p) and not y(eating($p)) implies y(hungry($p) and canEat($p))))
+	LTLSPEC ltlSpec_goesOn: (forall $p in Philosopher with g(y(eating($p) and hungry($p)) implies eating($p)))
+	// each meal is counted once
+	LTLSPEC ltlSpec_meals:
+		(forall $p in Philosopher, $n in {0 : 1} with
+			g(
+				y(meals($p) = $n)
+				implies if eating($p) and not y(eating($p)) then meals($p) = $n + 1 else meals($p) = $n endif))
 
 	main rule r_Main =
 		choose $p in Philosopher with true do program($p)

@@ -39,7 +39,7 @@ definitions:
 	/* the jaw goes where it is ordered, and stays */
 	LTLSPEC ltlSpec_obeys: g(valve implies s(y(not isNewJaw_order or jaw_order), y(isNewJaw_order and jaw_order)))
 	LTLSPEC ltlSpec_opens: g(y(isNewJaw_order and not jaw_order) implies not valve)
-	CTLSPEC ctlSpec_held: ag(ef(grip = HOLDING) and ef(grip = OPENED))
+	CTLSPEC ctlSpec_held: ag(ef(grip = HOLDING) and ef(grip = EMPTY) and ef(grip = OPENED))
 
 	main rule r_Main =
 		if isNewJaw_order and jaw_order != valve then

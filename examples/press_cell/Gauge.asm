@@ -2,6 +2,7 @@
 asm Gauge
 
 import ../../library/std/StandardLibrary
+import ../../library/std/LTLLibrary
 import PressData
 
 signature:
@@ -9,6 +10,10 @@ signature:
 	out position: Position
 
 definitions:
+	/* it says what it sees, and takes nothing for an end before it has looked */
+	LTLSPEC ltlSpec_says: (forall $p in Position with g(y(height = $p) implies position = $p))
+	LTLSPEC ltlSpec_begins: position = BETWEEN
+
 	main rule r_Main = position := height
 
 default init s0:

@@ -29,6 +29,9 @@ definitions:
 	/* the lamp says that it works */
 	invariant inv_moves over mode, lamp: lamp = (mode = LOWERING or mode = RAISING)
 
+	/* the last stroke is done just as long as no other one has begun */
+	invariant inv_done over mode, done: done iff mode = IDLE
+
 	/* a broken curtain stops it in the next step, from any state in which it works */
 	CTLSPEC ctlSpec_still: ag(curtain implies ax(command = HOLD and not lamp))
 
@@ -42,6 +45,28 @@ definitions:
 
 	/* it comes up only if it was down since it began */
 	LTLSPEC ltlSpec_down: g(mode = RAISING implies o(isNewPosition and position = LOW))
+
+	/* a stroke begins, turns, ends and goes on when it is told so, and only then */
+	LTLSPEC ltlSpec_begins: mode = IDLE and command = HOLD
+	LTLSPEC ltlSpec_idle:
+		g(y(mode = IDLE) implies if y(start and not curtain) then mode = LOWERING else mode = IDLE endif)
+	LTLSPEC ltlSpec_lowering:
+		g(
+			y(mode = LOWERING and not curtain)
+			implies if y(isNewPosition and position = LOW) then mode = RAISING else mode = LOWERING endif)
+	LTLSPEC ltlSpec_raising:
+		g(
+			y(mode = RAISING and not curtain)
+			implies if y(isNewPosition and position = HIGH) then mode = IDLE else mode = RAISING endif)
+	LTLSPEC ltlSpec_stops: g(y((mode = LOWERING or mode = RAISING) and curtain) implies mode = STOPPED)
+	LTLSPEC ltlSpec_goesOn: g(y(mode = STOPPED) implies (mode = STOPPED iff y(curtain or not acknowledge)))
+
+	/* the drive does in the next cycle what the machine is in now */
+	LTLSPEC ltlSpec_drive:
+		g(
+			(y(mode = LOWERING and not curtain) implies command = LOWER)
+			and (y(mode = RAISING and not curtain) implies command = RAISE)
+			and (y(mode = IDLE or mode = STOPPED) implies command = HOLD))
 
 	// Press controller
 	rule r_press =

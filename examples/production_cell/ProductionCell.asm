@@ -5,6 +5,8 @@
 asm ProductionCell
 
 import ../../library/std/StandardLibrary
+import ../../library/std/CTLLibrary
+import ../../library/std/LTLLibrary
 
 signature:
 	domain Device subsetof Agent
@@ -135,6 +137,52 @@ definitions:
 	// the press closes on a blank only
 	invariant inv_press over pressState: (pressState = FORGING or pressState = CLOSING) implies inPress = BLANK
 	invariant inv_deposit over depositStart: depositStart != BLANK
+
+	// it begins empty, and whatever comes goes out as a plate
+	LTLSPEC ltlSpec_begins:
+		inCell = 0 and blanksIn = 0 and forgingTicks = 0 and armState = AT_FEED and pressState = OPEN_EMPTY
+	CTLSPEC ctlSpec_plates: ag(ef(blanksIn = 3 and platesOut = 3))
+
+	// a blank that arrives is taken where nothing lies
+	LTLSPEC ltlSpec_feeds: g(y(isUndef(feedEnd)) implies (feedEnd = BLANK iff y(blankArrives)))
+	LTLSPEC ltlSpec_waits: g(y(feedEnd = BLANK and armState != AT_FEED) implies feedEnd = BLANK)
+
+	// the robot goes on when there is something to take; where it puts something, there is always room
+	LTLSPEC ltlSpec_picks:
+		g(
+			y(armState = AT_FEED)
+			implies if y(feedEnd = BLANK) then
+				armState = TO_PRESS_FULL and inArm = BLANK and isUndef(feedEnd)
+			else
+				armState = AT_FEED
+			endif)
+	LTLSPEC ltlSpec_loads:
+		g(
+			y(armState = TO_PRESS_FULL)
+			implies armState = AT_PRESS and isUndef(inArm) and inPress = BLANK and pressState = CLOSING)
+	LTLSPEC ltlSpec_unloads:
+		g(
+			y(armState = AT_PRESS)
+			implies if y(pressState = OPEN_FORGED) then
+				armState = TO_DEPOSIT_FULL and inArm = PLATE and isUndef(inPress) and pressState = OPEN_EMPTY
+			else
+				armState = AT_PRESS
+			endif)
+	LTLSPEC ltlSpec_puts:
+		g(y(armState = TO_DEPOSIT_FULL) implies armState = AT_FEED and isUndef(inArm) and depositStart = PLATE)
+	LTLSPEC ltlSpec_takesAway: g(y(depositStart = PLATE) implies isUndef(depositStart))
+
+	// a blank is forged for three steps; then the press opens on a plate
+	LTLSPEC ltlSpec_closes: g(y(pressState = CLOSING) implies pressState = FORGING)
+	LTLSPEC ltlSpec_forges:
+		g(
+			y(pressState = FORGING)
+			implies if y(y(pressState = FORGING and y(pressState = FORGING))) then
+				pressState = OPENING
+			else
+				pressState = FORGING
+			endif)
+	LTLSPEC ltlSpec_opens: g(y(pressState = OPENING) implies pressState = OPEN_FORGED and inPress = PLATE)
 
 	main rule r_Main =
 		forall $d in Device with true do program($d)

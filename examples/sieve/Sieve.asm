@@ -3,6 +3,7 @@
 asm Sieve
 
 import ../../library/std/StandardLibrary
+import ../../library/std/CTLLibrary
 
 signature:
 	static limit: Integer
@@ -23,6 +24,10 @@ definitions:
 
 	invariant inv_disjoint over candidates, primes: isEmpty(intersection(candidates, primes))
 	invariant inv_primes over primes: (forall $p in primes with isPrime($p))
+
+	// the sieve gets empty, and all 25 primes are found
+	CTLSPEC ctlSpec_ends: af(isEmpty(candidates) and size(primes) = 25)
+	CTLSPEC ctlSpec_begins: isEmpty(primes) and size(candidates) = 99
 
 	main rule r_Main =
 		if notEmpty(candidates) then

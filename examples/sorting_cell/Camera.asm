@@ -2,6 +2,7 @@
 asm Camera
 
 import ../../library/std/StandardLibrary
+import ../../library/std/LTLLibrary
 import Parcels
 
 signature:
@@ -26,6 +27,18 @@ definitions:
 
 	invariant inv_oneParcel over labels, shapes:
 		isDef(labels) implies first(labels) = arrivals and first(shapes) = arrivals
+
+	/* a parcel that comes has the next number, and is sent as it is seen then; nothing else gets a number */
+	LTLSPEC ltlSpec_numbers:
+		(forall $p in Parcel with g(y(arrivals = $p and seen and not y(seen)) implies arrivals = ($p + 1) mod 3))
+	LTLSPEC ltlSpec_keeps:
+		(forall $p in Parcel with g(y(arrivals = $p and not (seen and not y(seen))) implies arrivals = $p))
+	LTLSPEC ltlSpec_label:
+		(forall $d in Digit with g(y(printed = $d and seen and not y(seen)) implies labels = (arrivals, $d)))
+	LTLSPEC ltlSpec_shape:
+		(forall $d in Dent with g(y(outline = $d and seen and not y(seen)) implies shapes = (arrivals, $d)))
+	/* the first parcel has the number 0 */
+	LTLSPEC ltlSpec_begins: arrivals = 2
 
 	main rule r_Main =
 		par

@@ -2,6 +2,7 @@
 asm Encoder
 
 import ../../library/std/StandardLibrary
+import ../../library/std/LTLLibrary
 import Parcels
 
 signature:
@@ -10,6 +11,11 @@ signature:
 	controlled wasMark: Boolean
 
 definitions:
+	/* a mark that comes is one place on, and nothing else is */
+	LTLSPEC ltlSpec_counts: (forall $w in Way with g(y(way = $w and mark and not y(mark)) implies way = ($w + 1) mod 4))
+	LTLSPEC ltlSpec_keeps: (forall $w in Way with g(y(way = $w and not (mark and not y(mark))) implies way = $w))
+	LTLSPEC ltlSpec_begins: way = 0
+
 	main rule r_Main =
 		par
 			wasMark := mark

@@ -31,6 +31,10 @@ definitions:
 
 	/* it is out for as long as a stroke takes since the last new order */
 	LTLSPEC ltlSpec_ordered: g(rightArm implies y(ordered or y(ordered or y(ordered or y(ordered or y(ordered))))))
+	/* and stays out for that long, unless there was a stop */
+	LTLSPEC ltlSpec_stays:
+		g(not y(o(stop)) and y(ordered or y(ordered or y(ordered or y(ordered or y(ordered))))) implies rightArm)
+	LTLSPEC ltlSpec_begins: not rightArm and remaining = 0
 
 	main rule r_Main =
 		if isHalted or stop then

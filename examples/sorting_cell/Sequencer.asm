@@ -124,6 +124,30 @@ definitions:
 	/* in the step that is told of the stop, and ever after */
 	CTLSPEC ctlSpec_stopped: ag(stop implies ax(ag(not leftOrders and not rightOrders)))
 
+	/* it runs on just as long as nothing is lost: the belt moves by one place at most, the next parcel comes, and only to a free place */
+	LTLSPEC ltlSpec_begins: mode = RUNNING and arrived = 2 and come = 0
+	CTLSPEC ctlSpec_counts:
+		(forall $w in Way with ag(mode = RUNNING and way = $w implies ax(mode = RUNNING implies come = $w)))
+	CTLSPEC ctlSpec_lostWay:
+		(forall $w in Way with
+			ag(come = $w and (way = ($w + 2) mod 4 or way = ($w + 3) mod 4) implies ax(mode = STOPPED)))
+	CTLSPEC ctlSpec_lostParcel:
+		(forall $p in Parcel with ag(arrived = $p and arrivals = ($p + 2) mod 3 implies ax(mode = STOPPED)))
+	CTLSPEC ctlSpec_onePlace:
+		ag(
+			isDef(entering) and arrivals = (arrived + 1) mod 3 and (isUndef(way) or way = come)
+			implies ax(mode = STOPPED))
+	CTLSPEC ctlSpec_goesOn:
+		ag(
+			mode = RUNNING
+				and not stop
+				and (isUndef(way) or way = come or way = (come + 1) mod 4)
+				and (
+					isUndef(arrivals)
+					or arrivals = arrived
+					or arrivals = (arrived + 1) mod 3 and (isUndef(entering) or way = (come + 1) mod 4))
+			implies ax(mode = RUNNING))
+
 	/* unless it is stopped at once, each parcel may be pushed into each bin */
 	CTLSPEC ctlSpec_pushed: not stop implies (forall $p in Parcel with ef(pushedLeft = $p) and ef(pushedRight = $p))
 
@@ -154,6 +178,9 @@ definitions:
 						y(
 							s(entering = $p and not isOther($p, RIGHT), entering = $p and codes = ($p, RIGHT))
 							and s(entering = $p and not isDamaged($p), entering = $p and classes = ($p, WHOLE)))))))
+
+	/* the right pusher is one place on: what it pushes lay at the left one before */
+	LTLSPEC ltlSpec_further: (forall $p in Parcel with g(pushedRight = $p implies y(following = $p)))
 
 	main rule r_Main = r_follow[]
 

@@ -56,6 +56,7 @@ definitions:
 			ag(
 				isFollowing and unseen = $n and hasTarget and not isSeen
 				implies ax(panel = COVERED and unseen = $n + 1 or $n = patience and panel = LOST)))
+	CTLSPEC ctlSpec_patient: ef(panel = COVERED and unseen = 10)
 	LTLSPEC ltlSpec_lost: g(panel = LOST implies s(panel = LOST, y(unseen = patience and not isSeen)))
 	/* whatever has happened, it may converge, and lose the discs */
 	CTLSPEC ctlSpec_again: ag(ef(panel = CONVERGED) and ef(panel = COVERED) and ef(panel = LOST))

@@ -1,28 +1,41 @@
 #!/bin/sh
-# Mutates machines of library/patterns and compares with what is expected: how many mutants the properties of the models beside this
-# file kill, and how many survive. Arguments: groundstate's path, and files of expectations.
+# Mutates models and compares with what is expected: how many mutants the properties kill, and how many survive. Arguments:
+# groundstate's path, and lists of expectations. The paths in a list are seen from its folder.
+# A line: what is mutated; which models judge it, or options of `mutate`; what comes out. Without both, the model judges itself.
 set -u
-case $1 in */*) groundstate=$(cd "$(dirname "$1")" && pwd)/$(basename "$1") ;; *) groundstate=$1 ;; esac
+[ $# -ge 2 ] || { echo "usage: mutants.sh GROUNDSTATE LIST…" >&2; exit 2; }
+groundstate=$(realpath "$1")
 shift
-cd "$(dirname "$0")" || exit 1
-
-list=$(mktemp)
-trap 'rm -f "$list"' EXIT
 wrong=0
 
-cat "$@" >"$list" || exit 1
-while IFS=';' read -r mutated judges expected; do
-	case $mutated in '#'* | '') continue ;; esac
-	by=
-	for judge in $judges; do by="$by --by $judge"; done
-	# shellcheck disable=SC2086 # the judges are several words
-	count=$("$groundstate" mutate "$mutated" $by --with verify </dev/null 2>/dev/null | grep ' killed (')
+# expect MUTATED JUDGES COUNTS
+expect() {
+	case $2 in
+	*--*) options=$2 ;;
+	*)
+		options="--with verify --time 600"
+		for judge in $2; do options="$options --by $judge"; done
+		;;
+	esac
+	# shellcheck disable=SC2086 # the options are several words
+	count=$("$groundstate" mutate "$1" $options </dev/null 2>/dev/null | grep ' killed (')
 	count=$(echo "$count" | sed 's/ ([^)]*)//')
-	if [ "$count" = "${expected# }" ]; then
-		echo "right   $mutated by$judges: $count"
+	if [ -n "$count" ] && [ "$count" = "${3# }" ]; then
+		echo "right   $1${2:+,}$2: $count"
 	else
-		echo "WRONG   $mutated by$judges: $count instead of$expected"
+		echo "WRONG   $1${2:+,}$2: $count instead of$3"
 		wrong=1
 	fi
-done <"$list"
+}
+
+for list in "$@"; do
+	here=$PWD
+	lines=$(grep -v -e '^#' -e '^$' "$list") && cd "$(dirname "$list")" || exit 1
+	while IFS=';' read -r mutated judges counts; do
+		expect "$mutated" "$judges" "$counts"
+	done <<EOF
+$lines
+EOF
+	cd "$here" || exit 1
+done
 exit $wrong

@@ -5,11 +5,11 @@ namespace servoing {
 
 gs::Fault Machine::start() {
     return gs::attempt([&] {
-#line 79 "../../../Servoing.asm"
-        panel_.put(panel_.number(1), initial_panel());
 #line 80 "../../../Servoing.asm"
-        guiding_.put(guiding_.number(2), initial_guiding());
+        panel_.put(panel_.number(1), initial_panel());
 #line 81 "../../../Servoing.asm"
+        guiding_.put(guiding_.number(2), initial_guiding());
+#line 82 "../../../Servoing.asm"
         unseen_.put(unseen_.number(3), initial_unseen());
 #line 15 "servoing.cpp"
     }, [&] {
@@ -57,23 +57,23 @@ gs::Maybe<bool> Machine::isClose(gs::Site site) {
     return isClose_.read(step_, site, [&]() -> gs::Maybe<bool> { return environment_.isClose(); });
 }
 
-#line 79 "../../../Servoing.asm"
+#line 80 "../../../Servoing.asm"
 ServoMode Machine::initial_panel() {
-#line 79 "../../../Servoing.asm"
+#line 80 "../../../Servoing.asm"
     return ServoMode::WITHOUT_TARGET;
 #line 65 "servoing.cpp"
 }
 
-#line 80 "../../../Servoing.asm"
+#line 81 "../../../Servoing.asm"
 gs::Maybe<bool> Machine::initial_guiding() {
-#line 80 "../../../Servoing.asm"
+#line 81 "../../../Servoing.asm"
     return gs::Maybe<bool>{false};
 #line 72 "servoing.cpp"
 }
 
-#line 81 "../../../Servoing.asm"
+#line 82 "../../../Servoing.asm"
 std::int64_t Machine::initial_unseen() {
-#line 81 "../../../Servoing.asm"
+#line 82 "../../../Servoing.asm"
     return std::int64_t{0};
 #line 79 "servoing.cpp"
 }
@@ -92,27 +92,27 @@ bool Machine::isFollowing() {
 #line 93 "servoing.cpp"
 }
 
-#line 63 "../../../Servoing.asm"
-void Machine::r_Main([[maybe_unused]] Next& next) {
 #line 64 "../../../Servoing.asm"
-    if (gs::holds(gs::negation(hasTarget(6)), 5)) {
+void Machine::r_Main([[maybe_unused]] Next& next) {
 #line 65 "../../../Servoing.asm"
+    if (gs::holds(gs::negation(hasTarget(6)), 5)) {
+#line 66 "../../../Servoing.asm"
         r_is(next, ServoMode::WITHOUT_TARGET, false, std::int64_t{0});
 #line 102 "servoing.cpp"
     } else {
-#line 67 "../../../Servoing.asm"
-        if (gs::holds(isSeen(12), 12)) {
 #line 68 "../../../Servoing.asm"
+        if (gs::holds(isSeen(12), 12)) {
+#line 69 "../../../Servoing.asm"
             r_is_2(next, std::int64_t{0});
 #line 108 "servoing.cpp"
         } else {
-#line 70 "../../../Servoing.asm"
-            if (isFollowing() && (unseen_.read() < patience())) {
 #line 71 "../../../Servoing.asm"
+            if (isFollowing() && (unseen_.read() < patience())) {
+#line 72 "../../../Servoing.asm"
                 r_is_3(next, ServoMode::COVERED);
 #line 114 "servoing.cpp"
             } else {
-#line 73 "../../../Servoing.asm"
+#line 74 "../../../Servoing.asm"
                 r_is_4(next, false, std::int64_t{0});
 #line 118 "servoing.cpp"
             }
