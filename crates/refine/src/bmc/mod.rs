@@ -2,7 +2,7 @@
 //!
 //! In: a coupling, options, solvers, the most steps. Out: a [`Report`]. Lengths are tried in increasing order, so a run found is a shortest
 //! one of those that end in this way. INVARIANT: *does not refine* is said only if the machines make the run again and the game on it is
-//! lost ([`again`]); *refines* is never said. That no run of so many steps is refuted is said if all solvers that are there say so, of
+//! lost ([`mod@again`]); *refines* is never said. That no run of so many steps is refuted is said if all solvers that are there say so, of
 //! formulas that leave out nothing that a run of so many steps does. Decided in docs/adr/0051.
 
 mod again;
