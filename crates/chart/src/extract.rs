@@ -2,7 +2,7 @@
 //!
 //! In: a checked model. Out: a [`Chart`] with a machine for each rule that tests and sets a control location (an enum
 //! value or undef), in any nesting of `if`, `switch`, `let` and macro calls; for other rules that set such a location,
-//! why they are no machines. Equal tails of paths share their shapes; [`nest`] also finds composite states.
+//! why they are no machines. Equal tails of paths share their shapes; [`nest()`] also finds composite states.
 //!
 //! INVARIANT: the written chart has no faults, and its rules do what the model's rules do ([`agrees`] checks this).
 

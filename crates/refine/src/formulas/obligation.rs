@@ -32,7 +32,7 @@ pub struct Obligation {
     pub script: String,
     /// It is a check of sense: the formula is to be satisfiable.
     pub sense: bool,
-    /// What each solver said, in the order of [`Proof::solvers`].
+    /// What each solver said, in the order in which they were asked.
     pub said: Vec<Said>,
 }
 
