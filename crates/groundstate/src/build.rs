@@ -53,9 +53,6 @@ fn built(
         }
     };
     let mut unbuilt = chart::unbuilt(chart, &known);
-    if unbuilt.is_empty() {
-        unbuilt = chart::clashes(chart, &known, &format!("{folder}Imports.asm"), loader);
-    }
     unbuilt.extend(chart::stateless(chart));
     if !unbuilt.is_empty() {
         faults.push((sources.clone(), unbuilt));
@@ -71,9 +68,14 @@ fn built(
         }
     };
     let found = faults_of(root, chart, name, &built.text, loader);
-    let good = found.1.is_empty();
-    faults.push(found);
-    good.then_some(built)
+    if found.1.is_empty() {
+        faults.push(found);
+        return Some(built);
+    }
+    // One fault in the chart instead of many in a text that nobody has written.
+    let clashes = chart::clashes(chart, &known, &format!("{folder}Imports.asm"), loader);
+    faults.push(if clashes.is_empty() { found } else { (sources.clone(), clashes) });
+    None
 }
 
 /// The errors of the text that was built.

@@ -27,6 +27,7 @@ mod preserve;
 mod product;
 mod refine;
 mod report;
+mod short_search;
 mod side;
 mod transfer;
 mod translate;

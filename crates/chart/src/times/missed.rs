@@ -21,7 +21,7 @@ pub struct Missed {
 }
 
 /// LIMIT: ends that are computed before the search is given up.
-const WORK: u64 = 50_000_000;
+const WORK: u64 = 5_000_000;
 
 /// The cycles of a task: the first one, the next ones, how much later each may be released, and how long it takes.
 #[derive(Debug, Clone, Copy)]

@@ -8,6 +8,8 @@
 mod again;
 mod unrolled;
 
+use std::ops::ControlFlow;
+
 use machine::Cause;
 use solve::shared::{Node, Terms};
 
@@ -17,16 +19,12 @@ use crate::formulas::ask::{Ask, Provers};
 use crate::formulas::obligation::{Origin, Said};
 use crate::limited::with_shared_inputs;
 use crate::options::Options;
-use crate::refine::{Trouble, refine};
+use crate::refine::Trouble;
 use crate::report::{Left, Progress, Report, Runs, Verdict, Why};
+use crate::short_search::short_search;
 use crate::{ABSTRACT, CONCRETE};
 use again::{Again, again};
 use unrolled::Unrolled;
-
-/// LIMIT: so many pairs of states are searched for a refutation, if the options say nothing.
-const SEARCHED: u64 = 500;
-/// LIMIT: so many steps are made for it.
-const STEPS: u64 = 20_000;
 
 /// Looks for a run of at most `depth` steps of the concrete machine that no run of the abstract machine matches. `watch` receives progress
 /// and tells whether to go on.
@@ -40,18 +38,10 @@ pub fn refute(
     watch: &mut dyn FnMut(&Progress) -> bool,
 ) -> Result<Report, Trouble> {
     let options = &with_shared_inputs(coupling, options);
-    let max_pairs = options.max_pairs.min(SEARCHED);
-    let searched = Options { max_pairs, max_steps: options.max_steps.min(STEPS), ..options.clone() };
-    let mut report = refine(coupling, &searched, watch)?;
-    report.diagrams.clear();
-    report.properties.clear();
-    let is_interrupted = |why: &Why| matches!(why, Why::Stopped(_));
-    match &report.verdict {
-        Verdict::DoesNot(_) | Verdict::Vacuous(_) => return Ok(report),
-        Verdict::Unknown(whys) if whys.iter().any(is_interrupted) => return Ok(report),
-        Verdict::Refines | Verdict::Unknown(_) => {}
-    }
-    report.idle = false;
+    let mut report = match short_search(coupling, options, watch)? {
+        ControlFlow::Continue(report) => report,
+        ControlFlow::Break(report) => return Ok(report),
+    };
     let progress = report.progress;
     let mut go_on = || watch(&progress) && options.extents.iter().all(|extent| !extent.interrupt.is_raised());
     let Provers { solvers, seconds, depth } = provers;

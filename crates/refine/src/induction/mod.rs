@@ -12,6 +12,8 @@ mod replay;
 mod steps;
 mod stuck;
 
+use std::ops::ControlFlow;
+
 use machine::Cause;
 
 use crate::bmc::look;
@@ -22,17 +24,14 @@ use crate::formulas::obligation::SOLVERS;
 use crate::limited::with_shared_inputs;
 use crate::options::Options;
 use crate::preserve::preserved_by;
-use crate::refine::{Trouble, refine};
+use crate::refine::Trouble;
 use crate::report::{Progress, Report, Verdict, Why};
+use crate::short_search::short_search;
 use crate::transfer::Transfer;
 use crate::{ABSTRACT, CONCRETE};
 use proof::{Gap, Proof};
 use prover::{Ended, Prover};
 
-/// LIMIT: so many pairs of states are searched for a refutation, if the options say nothing.
-const SEARCHED: u64 = 500;
-/// LIMIT: so many steps are made for it.
-const STEPS: u64 = 20_000;
 /// LIMIT: so long each solver may think about runs from the initial states, if an obligation fails, in seconds.
 const SECONDS: u32 = 10;
 
@@ -47,19 +46,10 @@ pub fn prove(
     watch: &mut dyn FnMut(&Progress) -> bool,
 ) -> Result<Report, Trouble> {
     let options = &with_shared_inputs(coupling, options);
-    let max_pairs = options.max_pairs.min(SEARCHED);
-    let searched = Options { max_pairs, max_steps: options.max_steps.min(STEPS), ..options.clone() };
-    let mut report = refine(coupling, &searched, watch)?;
-    report.diagrams.clear();
-    report.properties.clear();
-    let is_interrupted = |why: &Why| matches!(why, Why::Stopped(_));
-    match &report.verdict {
-        Verdict::DoesNot(_) | Verdict::Vacuous(_) => return Ok(report),
-        Verdict::Unknown(whys) if whys.iter().any(is_interrupted) => return Ok(report),
-        Verdict::Refines | Verdict::Unknown(_) => {}
-    }
-    // The search before a proof may not have come to the steps that matter.
-    report.idle = false;
+    let mut report = match short_search(coupling, options, watch)? {
+        ControlFlow::Continue(report) => report,
+        ControlFlow::Break(report) => return Ok(report),
+    };
     let mut proof = Proof::default();
     let Provers { solvers, seconds, depth } = provers;
     for solver in &solvers {
