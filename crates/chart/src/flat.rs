@@ -254,7 +254,7 @@ impl Flattener<'_> {
             }
         }
         let end = match target {
-            End::Shape(id) => self.entered(id, &kept, &aborted, span),
+            End::Shape(id) => self.entered(from.leaf, id, &kept, &aborted, span),
             other => {
                 done.extend(aborted.iter().map(|(rule, of)| self.action(of, "is aborted", rule.clone())));
                 other
@@ -263,9 +263,16 @@ impl Flattener<'_> {
         self.chained(&done, end, span)
     }
 
-    /// The way into a state; `kept` are the states around it that the machine is in already, `aborted` what is done because
-    /// patterns are left from outside.
-    fn entered(&mut self, id: ShapeId, kept: &[ShapeId], aborted: &[(String, Shape)], span: Span) -> End {
+    /// The way into a state from the innermost one `leaf`; `kept` are the states around it that the machine is in already,
+    /// `aborted` what is done because patterns are left from outside.
+    fn entered(
+        &mut self,
+        leaf: Option<ShapeId>,
+        id: ShapeId,
+        kept: &[ShapeId],
+        aborted: &[(String, Shape)],
+        span: Span,
+    ) -> End {
         let shape = self.machine.shape(id).clone();
         let Some(composite) = shape.composite() else {
             let mut done = Vec::new();
@@ -293,10 +300,15 @@ impl Flattener<'_> {
         };
         let first = self.machine.numbered().find(|(_, inner)| inner.inside == Some(id) && inner.is_initial());
         let Some((first, _)) = first else { return End::Shape(id) };
-        let mut end = self.entered(first, kept, aborted, span);
         if composite.history.is_none() {
-            return end;
+            return self.entered(leaf, first, kept, aborted, span);
         }
+        // What is left and entered in one step is entered where it is left.
+        let here = leaf.into_iter().flat_map(|leaf| std::iter::once(leaf).chain(self.machine.around(leaf)));
+        if let Some(inner) = here.into_iter().find(|one| self.machine.shape(*one).inside == Some(id)) {
+            return self.entered(leaf, inner, kept, aborted, span);
+        }
+        let mut end = self.entered(leaf, first, kept, aborted, span);
         let memory = memory_location(self.machine, &shape);
         let states = self.machine.numbered().filter(|(inner, one)| one.inside == Some(id) && *inner != first);
         for (inner, _) in states.collect::<Vec<_>>() {
@@ -309,7 +321,7 @@ impl Flattener<'_> {
                 continue;
             }
             let guard = self.made(&shape, ShapeKind::Guard, "was left there", tests.join(" or "));
-            let there = self.entered(inner, kept, aborted, span);
+            let there = self.entered(leaf, inner, kept, aborted, span);
             self.arrow(End::Shape(guard), Some(true), there, span);
             self.arrow(End::Shape(guard), Some(false), end, span);
             end = End::Shape(guard);

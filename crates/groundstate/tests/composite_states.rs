@@ -222,7 +222,7 @@ impl Judge<'_> {
         while let Some(composite) = self.composite(leaf) {
             let children = || self.drawn.numbered().filter(|(_, one)| one.inside == Some(leaf)).map(|(id, _)| id);
             let holds = |child: &ShapeId| {
-                let left = self.place.left.get(&leaf).filter(|_| composite.history.is_some());
+                let left = next.left.get(&leaf).filter(|_| composite.history.is_some());
                 left.is_some_and(|left| left == child || inside(*left, *child))
             };
             let first = || children().find(|child| self.drawn.shape(*child).is_initial()).expect("it begins somewhere");
