@@ -56,9 +56,21 @@ const MAX_STOPS: usize = 100 * MAX_TRANSITIONS;
 /// which is an error, is left out.
 pub fn transitions(chart: &Chart, machine: &Machine) -> Vec<Transition> {
     let machine = machine.flat();
+    paths_from(chart, machine, origins(chart, machine))
+}
+
+/// The transitions as they are drawn, those that start at composite states, too. The machine has no answers.
+pub(crate) fn drawn_transitions(chart: &Chart, machine: &Machine) -> Vec<Transition> {
+    let composites = machine.numbered().filter(|(_, shape)| shape.composite().is_some());
+    let mut origins = origins(chart, machine);
+    origins.extend(composites.map(|(id, _)| Origin::State(id)));
+    paths_from(chart, machine, origins)
+}
+
+fn paths_from(chart: &Chart, machine: &Machine, origins: Vec<Origin>) -> Vec<Transition> {
     let mut found = Vec::new();
     let mut budget = MAX_STOPS;
-    for origin in origins(chart, machine) {
+    for origin in origins {
         let start = match origin {
             Origin::Enter => End::Enter,
             Origin::State(id) | Origin::Left(id) => End::Shape(id),

@@ -41,8 +41,8 @@ pub use build::{
     verified,
 };
 pub use chart::{
-    Arrow, Chart, Composite, Control, End, Layout, Machine, Parameter, Pattern, Refinement, Shape, ShapeId, ShapeKind,
-    WORDS,
+    Arrow, Chart, Composite, Control, End, History, Layout, Machine, Parameter, Pattern, Refinement, Shape, ShapeId,
+    ShapeKind, WORDS,
 };
 pub use check::{Probed, built_faults, check, probed, stateless};
 pub use computing::{ComponentMachine, Computing, Content, Feed, Take};

@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 use std::path::Path;
 
 use chart::import::scxml;
-use chart::{Chart, dump, read, scxml_of};
+use chart::{Chart, End, History, ShapeId, dump, read, scxml_of};
 use syntax::{FileId, Severity, parse_chart};
 
 fn chart(text: &str) -> Chart {
@@ -16,14 +16,45 @@ fn chart(text: &str) -> Chart {
     chart
 }
 
-/// The shapes and transitions of a chart's machine, independent of the order of shapes.
+/// The shapes and arrows of a chart's machine, independent of their order.
 fn lines(chart: &Chart, machine: &str) -> BTreeSet<String> {
     let mut alone = chart.clone();
     alone.imports.clear();
     alone.charts.clear();
     alone.machines.retain(|known| known.name == machine);
     alone.patterns = chart.machines.iter().filter(|known| known.name != machine).cloned().collect();
-    dump(&alone).lines().skip(1).map(str::to_string).collect()
+    let mut lines: BTreeSet<String> = dump(&alone).lines().skip(1).map(str::to_string).collect();
+    // Names of what composite states are built to depend on the order of shapes.
+    if let Some(machine) =
+        alone.machines.iter().find(|machine| machine.shapes.iter().any(|one| one.composite().is_some()))
+    {
+        lines.retain(|line| !line.contains("--["));
+        let name = |id: ShapeId| machine.shape(id).name.as_str();
+        let end = |end| match end {
+            End::Enter => "enter".to_string(),
+            End::Exit => "exit".to_string(),
+            End::Shape(id) => name(id).to_string(),
+        };
+        let arrows = machine.arrows.iter();
+        lines.extend(arrows.map(|one| format!("{} {:?} -> {}", end(one.from), one.branch, end(one.to))));
+        for (id, shape) in machine.numbered() {
+            lines.extend(shape.inside.map(|around| format!("{} in {}", shape.name, name(around))));
+            let Some(composite) = shape.composite() else { continue };
+            let names = |all: &[ShapeId]| all.iter().map(|id| name(*id).to_string()).collect::<Vec<_>>();
+            let history = composite.history.as_ref().map(|history| match history {
+                History::Linked(link) => link.text.clone(),
+                History::Made => String::new(),
+            });
+            lines.insert(format!(
+                "{} {:?} {:?} {history:?}",
+                name(id),
+                names(&composite.entry),
+                names(&composite.exit)
+            ));
+        }
+        lines.extend(machine.aborts.iter().map(|id| format!("abort {}", name(*id))));
+    }
+    lines
 }
 
 fn there_and_back(text: &str) {
@@ -58,6 +89,7 @@ fn the_repository_s_charts() {
         "library/patterns/DataProducer.chart",
         "library/patterns/PatternMachines.chart",
         "examples/visual_servoing/VisualServoingComponent.chart",
+        "examples/press_cell/Press.chart",
     ] {
         there_and_back(&std::fs::read_to_string(root.join(file)).expect("the chart is there"));
     }
@@ -98,49 +130,117 @@ endpattern
     );
 }
 
-#[test]
-fn a_machine_with_composite_states() {
-    let before = chart(
-        "chart C
+/// A lamp and a motor, with composite states in every form.
+const NESTED: &str = "chart C
 machine m
 	control c
-	initial state off
-	composite state on
-		history
-		exit lampOff
-		initial state slow
-		state fast
+	initial composite state on \"Is on\"
+		history {wasOn}
+		entry lampOn
+		exit lampOff \"LAMP OFF\" {r_lamp[false]}
+		exit note to refine by later
+		initial composite state turning
+			history
+			initial state slow
+			state fast
+			instance work of task
+			guard up
+			action turn
+		endstate
+		state waiting
+		guard idle
 	endstate
-	guard up
-	guard stop
-	action note to refine by later
+	state off
+	guard go
+	guard stop \"Stop & leave\" {stop and not held}
+	guard late
 	action halt
-	sequence note, halt
-	off -> up yes -> on
-	slow -> fast
-	on -> stop yes -> note -> halt -> off
+	action brake
+	sequence halt, brake
+	off -> go yes -> on
+	slow -> up yes -> turn -> fast
+	fast -> work -> slow
+	turning -> idle yes -> waiting
+	waiting -> on
+	on -> stop yes -> halt -> brake -> off
+	stop no -> late yes -> slow
 endmachine
-",
-    );
+pattern task
+	control t
+	state busy
+	abort giveBack
+	enter -> busy -> exit
+endpattern
+";
+
+#[test]
+fn a_machine_with_composite_states() {
+    there_and_back(NESTED);
+    let before = chart(NESTED);
     let document = scxml_of(&before, &before.machines[0]);
-    let back = scxml(FileId(0), &document, "Back");
-    assert_eq!(back.diagnostics, []);
-    let text = back.text.expect("no errors");
-    let after = chart(&text);
-    // One of each for each state that is left; what they do is written once, and refined once.
     for part in [
-        "guard stop2 \"Stop\" {stop}",
-        "action note \"Note\" to refine by later",
-        "action note2 \"Note\" {r_note[]}\n",
-        "action halt2 \"Halt\" {r_halt[]}",
-        "sequence note, note2, halt, halt2",
+        // What leads out of the states around comes first.
+        "<transition cond=\"not (((stop and not held)) or (not (stop and not held) and late)) and not (idle) and up\" target=\"fast\"",
+        "<onexit><script>par r_lamp[false] r_note[] endpar</script></onexit>",
+        "<history id=\"on.history\" type=\"deep\"><transition target=\"turning.history\"/></history>",
+        "<transition cond=\"go\" target=\"on.history\"",
     ] {
-        assert!(text.contains(part), "{part} is missing in\n{text}");
+        assert!(document.contains(part), "{part} is missing in\n{document}");
     }
-    assert_eq!(
-        chart::transitions(&after, &after.machines[0]).len(),
-        chart::transitions(&before, &before.machines[0]).len()
+}
+
+/// What the document of a nested machine is read as when another tool has changed it, and what is told.
+fn changed(changes: &[(&str, &str)]) -> (String, Vec<String>) {
+    let before = chart(NESTED);
+    let mut document = scxml_of(&before, &before.machines[0]);
+    for (from, to) in changes {
+        assert!(document.contains(from), "{from}\n{document}");
+        document = document.replacen(from, to, 1);
+    }
+    let back = scxml(FileId(0), &document, "C");
+    let told = back.diagnostics.iter().map(|fault| fault.message.clone()).collect();
+    let text = back.text.unwrap_or_default();
+    if !text.is_empty() {
+        let patterns = &NESTED[NESTED.find("pattern").expect("a pattern")..];
+        chart(&(text.replace("import \"task.chart\"\n", "") + patterns));
+    }
+    (text, told)
+}
+
+#[test]
+fn composite_states_that_another_tool_has_changed() {
+    let kept = |changes: &[(&str, &str)], expected: &str| {
+        let (text, told) = changed(changes);
+        assert_eq!(told, [""; 0]);
+        assert!(text.contains(expected), "{expected} is missing in\n{text}");
+    };
+    kept(&[("target=\"waiting\"", "target=\"off\"")], "idle yes -> off");
+    // Not to where it was left, but to where it begins.
+    kept(&[("cond=\"go\" target=\"on.history\"", "cond=\"go\" target=\"on\"")], "go yes -> slow");
+    kept(&[("<onentry><script>r_lampOn[]", "<onentry><script>r_red[]")], "entry red \"r_red[]\" {r_red[]}");
+    kept(&[("and up\"", "and faster\"")], "guard faster \"faster\" {faster}");
+    kept(
+        &[("<script>par r_halt[] r_brake[] endpar</script>", "<script>r_halt[]</script>")],
+        "action halt2 \"r_halt[]\" {r_halt[]}",
     );
+    kept(&[("gs:text=\"Is on\"", "gs:text=\"Runs\"")], "initial composite state on \"Runs\"");
+    // Without what comes first: what is inside would be taken first now. With histories, nothing can be read then.
+    let flat = "the composite states are read without their frames: each state gets the paths around it";
+    let history = "charts cannot express `history`";
+    let bar = "not (((stop and not held)) or (not (stop and not held) and late)) and not (idle) and up";
+    for (from, to) in [
+        (bar, "up"),
+        ("<onexit>", "<transition event=\"emergency\" target=\"off\"/><onexit>"),
+        ("<state id=\"off\" gs:text=\"Off\">", "<state id=\"off\"><onentry><script>r_beep[]</script></onentry>"),
+        ("and up\"", "and up or down\""),
+        ("target=\"turning.history\"/></history>", "target=\"waiting\"/></history>"),
+        ("initial=\"on.history\"", "initial=\"slow\""),
+    ] {
+        let (text, told) = changed(&[(from, to)]);
+        let told: BTreeSet<&str> =
+            told.iter().map(String::as_str).filter(|told| !told.contains("at the start")).collect();
+        assert_eq!((text.as_str(), told), ("", BTreeSet::from([flat, history])), "{from}");
+    }
 }
 
 #[test]
@@ -228,4 +328,15 @@ fn a_state_that_begins_in_itself_is_refused() {
     assert!(refused("outer"));
     let twice = "<scxml><state id='s' initial='s'><state id='s'><state id='t'/></state></state></scxml>";
     assert_eq!(scxml(FileId(0), twice, "C").text, None);
+}
+
+#[test]
+fn a_transition_to_a_state_around_it_leaves_and_enters_that() {
+    let document = "<scxml datamodel='asmetal'><state id='outer'>
+        <onexit><script>r_left[]</script></onexit><onentry><script>r_entered[]</script></onentry>
+        <state id='inner'><state id='one'><transition cond='up' target='outer'/><transition cond='down' target='inner'/></state></state>
+        </state></scxml>";
+    let text = scxml(FileId(0), document, "C").text.expect("no errors");
+    assert!(text.contains("one -> up yes -> left -> entered -> one"), "{text}");
+    assert!(text.contains("up no -> down yes -> one"), "{text}");
 }

@@ -1,13 +1,14 @@
-//! What is built of charts with composite states does what these mean (spec/charts.md, "Composite states").
+//! What is built of charts with composite states does what these mean (spec/charts.md, "Composite states"); so does what their SCXML
+//! is read back as, and what tools that do not know our own attributes in it make of it.
 //!
 //! The judge walks over the chart as it is drawn: from the outermost state around the present one inwards, it takes the first that has
-//! open paths. It knows nothing of flat machines. Both make the same random runs.
+//! open paths. It knows nothing of flat machines. All make the same random runs.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 use std::sync::Arc;
 
-use chart::{Chart, Composite, End, Known, Machine as Drawn, ShapeId, ShapeKind};
+use chart::{Chart, Composite, End, Known, Machine as Drawn, Shape, ShapeId, ShapeKind};
 use machine::{Choice, Environment, FaultClass, Limits, LocationRef, Machine, Show, TimeUnit, Value};
 use program::{DomainId, Program};
 use syntax::{FileId, Severity, SourceFile, parse_chart};
@@ -267,6 +268,13 @@ impl Judge<'_> {
         true
     }
 
+    /// How many paths are open in the outermost state that has any.
+    fn paths_open(&self, open: &Open) -> usize {
+        let outer = self.drawn.around(self.place.leaf).into_iter().rev();
+        let all = outer.chain([self.place.leaf]).map(|from| self.open_from(from, open).len());
+        all.into_iter().find(|open| *open > 0).unwrap_or_default()
+    }
+
     /// A step of the pattern.
     fn work(&mut self, open: &Open) {
         match self.place.task {
@@ -314,19 +322,48 @@ fn exchanged(chart: &Chart) -> Chart {
     let imported = chart::import::scxml(FileId(0), &document, "Nested");
     assert_eq!(imported.diagnostics, [], "{document}");
     let text = imported.text.expect("there are no errors");
-    let mut patterns = Chart { machines: chart.machines[1..].to_vec(), ..chart.clone() };
-    patterns.imports.clear();
-    let own = text.lines().filter(|line| !line.starts_with("import"));
-    let patterns = chart::write(&patterns);
-    read(&own.chain(patterns.lines().skip(1)).collect::<Vec<_>>().join("\n"))
+    let patterns = Chart { machines: chart.machines[1..].to_vec(), ..chart.clone() };
+    let own = text.lines().skip(1).filter(|line| !line.starts_with("import"));
+    read(&(chart::write(&patterns) + &own.collect::<Vec<_>>().join("\n")))
 }
 
-/// The built model, and its text. What is in the present text besides is kept.
-fn built(chart: &Chart, acts: &str, present: Option<&str>) -> (Arc<Program>, String) {
+/// What SCXML of the chart's machine means to a tool that does not know our own attributes and elements: it is read as a foreign
+/// document. `None` for what is not read of these: histories and patterns.
+fn foreign(chart: &Chart) -> Option<Chart> {
+    let machine = &chart.machines[0];
+    let known = |shape: &Shape| match &shape.kind {
+        ShapeKind::Composite(composite) => composite.history.is_none(),
+        kind => !matches!(kind, ShapeKind::Instance(_)),
+    };
+    if !machine.shapes.iter().all(known) {
+        return None;
+    }
+    let document = chart::scxml_of(chart, machine);
+    let lines = document.lines().filter(|line| !line.trim_start().starts_with("<gs:"));
+    let plain: Vec<String> = lines
+        .map(|line| {
+            let mut parts = line.split(" gs:");
+            let first = parts.next().unwrap_or_default().to_string();
+            // What follows the value of the attribute.
+            parts.fold(first, |line, part| line + part.splitn(3, '"').last().unwrap_or_default())
+        })
+        .collect();
+    let imported = chart::import::scxml(FileId(0), &plain.join("\n"), "Nested");
+    assert!(
+        imported.diagnostics.iter().all(|told| told.message.contains("at the start")),
+        "{:#?}",
+        imported.diagnostics
+    );
+    let text = imported.text.expect("there are no errors");
+    Some(read(&text.replace("control nestedState", "control mode").replacen('\n', "\nimport Acts\n", 1)))
+}
+
+/// The built model, and its text.
+fn built(chart: &Chart, acts: &str) -> (Arc<Program>, String) {
     let mut loader = Texts::of([("Acts.asm", acts)]);
     let text = "module Imports\nimport Acts\nimport StandardLibrary\nsignature:\ndefinitions:\n";
     let known = model::check(SourceFile::new("Imports.asm", text), &mut loader);
-    let text = chart::build(chart, &Known::of(&known.model), present).expect("what is there was built").text;
+    let text = chart::build(chart, &Known::of(&known.model), None).expect("there is nothing yet").text;
     let loaded = groundstate::load(SourceFile::new("Nested.asm", text.as_str()), &mut loader);
     (loaded.unwrap_or_else(|faulty| panic!("{:#?}\n{text}", faulty.diagnostics)).program, text)
 }
@@ -357,10 +394,13 @@ impl Judge<'_> {
 fn runs(seed: u64, seen: &mut BTreeMap<&'static str, usize>) {
     let (text, acts) = Made::of(seed);
     let chart = read(&text);
-    let (program, text_built) = built(&chart, &acts, None);
-    // The function that remembers where a state was left is in the model; SCXML has the tests of it.
-    let (again, _) = built(&exchanged(&chart), &acts, Some(&text_built));
-    let built = text_built;
+    let (again, _) = built(&exchanged(&chart), &acts);
+    // There, a guard is a text.
+    let guards = chart.machines[0].shapes.iter().filter(|shape| shape.kind == ShapeKind::Guard);
+    let inputs: String = guards.map(|guard| format!("monitored {}: Boolean\n", guard.name)).collect();
+    let with_inputs = acts.replacen("definitions:", &format!("{inputs}definitions:"), 1);
+    let foreign = foreign(&chart).map(|foreign| built(&foreign, &with_inputs).0);
+    let (program, built) = built(&chart, &acts);
     let drawn = &chart.machines[0];
     let mut dice = Dice(seed | 1 << 40);
     for _ in 0..4 {
@@ -369,6 +409,10 @@ fn runs(seed: u64, seen: &mut BTreeMap<&'static str, usize>) {
         machine.start(&mut Given(&none)).expect("nothing is asked");
         let mut other = Machine::new(Arc::clone(&again), Limits::default());
         other.start(&mut Given(&none)).expect("nothing is asked");
+        let mut foreign = foreign.as_ref().map(|program| Machine::new(Arc::clone(program), Limits::default()));
+        if let Some(machine) = &mut foreign {
+            machine.start(&mut Given(&none)).expect("nothing is asked");
+        }
         let first = drawn.initial().expect("there is an initial state");
         let place = Place { leaf: first, task: None, left: BTreeMap::new() };
         let mut judge = Judge { drawn, place, times: BTreeMap::new() };
@@ -377,7 +421,14 @@ fn runs(seed: u64, seen: &mut BTreeMap<&'static str, usize>) {
             let guards = guards.filter(|shape| shape.kind == ShapeKind::Guard);
             let open: Open = guards.map(|guard| (guard.name.clone(), dice.throw(3) == 0)).collect();
             let before = judge.place.clone();
+            // Of two open paths, SCXML takes the first.
+            foreign = foreign.filter(|_| judge.paths_open(&open) < 2);
             let made = judge.step(&open);
+            if let Some(machine) = &mut foreign {
+                machine.step(&mut Given(&open)).expect("one path is taken");
+                assert_eq!(state(machine), judge.state(), "seed {seed}: elsewhere, from {before:?}, {open:?}\n{text}");
+                *seen.entry("steps elsewhere").or_default() += usize::from(judge.place.leaf != before.leaf);
+            }
             assert_eq!(other.step(&mut Given(&open)).is_ok(), made, "seed {seed}: of SCXML\n{text}");
             match machine.step(&mut Given(&open)) {
                 Ok(_) => assert!(made, "seed {seed}: two paths contradict each other\n{text}\n{built}"),
@@ -404,7 +455,7 @@ fn what_is_built_does_what_is_drawn() {
     for seed in sample::seeds(120, 20_000) {
         runs(seed, &mut seen);
     }
-    for what in ["moves", "aborts", "memories", "contradictions"] {
+    for what in ["moves", "aborts", "memories", "contradictions", "steps elsewhere"] {
         assert!(seen[what] > 20, "{seen:?}");
     }
 }

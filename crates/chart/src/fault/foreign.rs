@@ -32,6 +32,17 @@ pub(crate) fn kept_as_text(span: Span, what: &str, name: &str) -> Diagnostic {
         .with_help(format!("write `{name}` in the specification, or link the shape to what it stands for"))
 }
 
+/// Something in a document of our own for which composite states cannot be read back.
+pub(crate) fn flattened(span: Span, why: &str, help: String) -> Diagnostic {
+    Diagnostic::warning(
+        ID,
+        span,
+        "the composite states are read without their frames: each state gets the paths around it",
+    )
+    .here(why.to_string())
+    .with_help(help)
+}
+
 /// A second state with the same id.
 pub(crate) fn second_state(span: Span, id: &str, first: Span) -> Diagnostic {
     Diagnostic::error(ID, span, format!("a second state with the id `{id}`"))

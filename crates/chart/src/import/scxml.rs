@@ -5,8 +5,9 @@
 //! leads through the `no` exits of those before it. An event becomes a guard that is true when the event comes; a
 //! condition in AsmetaL becomes a guard, too. Text in another language becomes the text of a shape to be refined. A
 //! transition executes, in sequence, the exit actions, its own actions and the entry actions. What our own export wrote
-//! is read back shape by shape (`own`).
+//! is read back shape by shape (`own`), with its composite states (`frames`).
 
+mod frames;
 mod own;
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -23,6 +24,7 @@ use crate::export::NAMESPACE;
 use crate::fault::foreign as fault;
 use crate::read::spoken;
 use crate::write::quoted;
+use frames::Frames;
 use own::Own;
 
 /// Reads an SCXML document; `name` is the chart's name, `file` identifies the text in faults.
@@ -64,8 +66,15 @@ pub fn scxml(file: FileId, text: &str, name: &str) -> Imported {
     out.push_str(&texts);
     faults.sort_by_key(|fault| fault.primary.span.start);
     let sound = faults.iter().all(|fault| fault.severity != Severity::Error);
-    let parse = syntax::parse_chart(file, &out);
-    Imported { text: sound.then(|| syntax::format(&parse)), diagnostics: faults }
+    Imported { text: sound.then(|| joined(file, &out)), diagnostics: faults }
+}
+
+/// The text of a chart, its arrows joined into paths. One that has faults as a chart stays as it is but for its layout.
+fn joined(file: FileId, text: &str) -> String {
+    let parse = syntax::parse_chart(file, text);
+    let (chart, faults) = crate::read::read(file, &parse);
+    let is_whole = parse.diagnostics.iter().chain(&faults).all(|fault| fault.severity != Severity::Error);
+    if is_whole { crate::write::write(&chart) } else { syntax::format(&parse) }
 }
 
 /// LIMIT: attributes of one element. The XML reader compares every pair of them.
@@ -116,9 +125,12 @@ struct Reader<'d, 'f> {
     /// Whether conditions and scripts are AsmetaL.
     asmetal: bool,
     names: Names,
-    /// The names of the flat states in the chart.
+    /// The composite states, if they can be read back.
+    frames: Option<Frames>,
+    /// The names of the states in the chart.
     called: BTreeMap<usize, String>,
-    shapes: String,
+    /// The declarations in each composite state, and outside of all.
+    shapes: BTreeMap<Option<usize>, Vec<Declared>>,
     sequences: Vec<Vec<String>>,
     paths: String,
     /// Paths of our own export.
@@ -130,9 +142,28 @@ struct Reader<'d, 'f> {
     faults: &'f mut Vec<Diagnostic>,
 }
 
+/// A declaration in a chart.
+enum Declared {
+    /// A shape.
+    Shape(String),
+    /// The head of a composite state, which is the state with this number.
+    Composite(String, usize),
+}
+
 impl<'d, 'f> Reader<'d, 'f> {
     fn new(file: FileId, document: Node<'d, 'd>, root: Node<'d, 'd>, faults: &'f mut Vec<Diagnostic>) -> Self {
         let states = States::of(file, root, faults);
+        let frames = match Frames::of(file, document, root, &states) {
+            Ok(frames) => frames,
+            Err(fault) => {
+                faults.push(*fault);
+                None
+            }
+        };
+        if frames.is_none() {
+            let at = |(node, _): &(Node<'d, 'd>, Option<usize>)| place(file, *node);
+            faults.extend(states.histories.iter().map(at).map(|at| fault::no_counterpart(at, "`history`", HISTORY)));
+        }
         Reader {
             file,
             document,
@@ -140,8 +171,9 @@ impl<'d, 'f> Reader<'d, 'f> {
             states,
             asmetal: document.attribute("datamodel") == Some("asmetal"),
             names: Names::default(),
+            frames,
             called: BTreeMap::new(),
-            shapes: String::new(),
+            shapes: BTreeMap::new(),
             sequences: Vec::new(),
             paths: String::new(),
             ways: Vec::new(),
@@ -161,12 +193,12 @@ impl<'d, 'f> Reader<'d, 'f> {
         let control = own("control").or_else(|| (!is_pattern).then(|| function(&format!("{name}State"))));
         let declared = self.declared();
         self.unused(self.document);
-        let start = self.initial(self.root, None);
+        let start = if self.frames.is_some() { None } else { self.initial(self.root, None) };
         for index in 0..self.states.all.len() {
             self.state(index, start, is_pattern);
         }
         for index in 0..self.states.all.len() {
-            if !self.states.all[index].compound {
+            if self.frames.is_some() || !self.states.all[index].compound {
                 self.transitions(index, is_pattern, &declared);
             }
         }
@@ -175,7 +207,7 @@ impl<'d, 'f> Reader<'d, 'f> {
             let _ = writeln!(out, "control {control}");
         }
         let ways = self.ways(&declared);
-        let _ = write!(out, "{}", self.shapes);
+        self.write_shapes(None, &mut out);
         for sequence in &self.sequences {
             let _ = writeln!(out, "sequence {}", sequence.join(", "));
         }
@@ -183,22 +215,41 @@ impl<'d, 'f> Reader<'d, 'f> {
         out
     }
 
-    /// Declares a shape with its attributes.
-    fn shape(&mut self, word: &str, name: &str, about: &dyn Fn(&str) -> Option<String>) {
-        let _ = write!(self.shapes, "{word} {name}");
+    /// The declaration of a shape with its attributes.
+    fn shape(&mut self, word: &str, name: &str, about: &dyn Fn(&str) -> Option<String>) -> String {
+        let mut shape = format!("{word} {name}");
         if let Some(of) = about("of") {
-            let _ = write!(self.shapes, " of {of}({})", about("arguments").unwrap_or_default());
+            let _ = write!(shape, " of {of}({})", about("arguments").unwrap_or_default());
             self.imports.insert(of);
         }
-        let _ = write!(self.shapes, " {}", quoted(&about("text").unwrap_or_else(|| spoken(name))));
+        let _ = write!(shape, " {}", quoted(&about("text").unwrap_or_else(|| spoken(name))));
         if let Some(link) = about("link") {
-            let _ = write!(self.shapes, " {{{link}}}");
+            let _ = write!(shape, " {{{link}}}");
         }
-        if let Some(by) = about("refine") {
-            let _ =
-                write!(self.shapes, " to refine{}", if by.is_empty() { String::new() } else { format!(" by {by}") });
+        match about("refine") {
+            Some(by) if by.is_empty() => shape.push_str(" to refine"),
+            Some(by) => _ = write!(shape, " to refine by {by}"),
+            None => {}
         }
-        self.shapes.push('\n');
+        shape
+    }
+
+    /// Declares a shape, in a composite state or outside of all.
+    fn declare(&mut self, around: Option<usize>, shape: String) {
+        self.shapes.entry(around).or_default().push(Declared::Shape(shape));
+    }
+
+    fn write_shapes(&self, around: Option<usize>, out: &mut String) {
+        for declared in self.shapes.get(&around).into_iter().flatten() {
+            match declared {
+                Declared::Shape(shape) => _ = writeln!(out, "{shape}"),
+                Declared::Composite(head, state) => {
+                    let _ = writeln!(out, "{head}");
+                    self.write_shapes(Some(*state), out);
+                    out.push_str("endstate\n");
+                }
+            }
+        }
     }
 
     /// Reports elements that have no counterpart.
@@ -286,18 +337,32 @@ impl<'d, 'f> Reader<'d, 'f> {
             }
         }
         let ends = is_pattern && (id == "enter" || is(node, "final") && id == "exit");
-        if compound || ends {
+        if compound && self.frames.is_none() || ends {
             return;
         }
         let name = self.names.fresh(&id);
         self.called.insert(index, name.clone());
+        let begins = match &self.frames {
+            Some(frames) => frames.is_first(index),
+            None => start == Some(index),
+        };
         let word = match own("of") {
-            Some(_) => "instance",
-            None if start == Some(index) && !is_pattern => "initial state",
-            None => "state",
+            Some(_) => "instance".to_string(),
+            None => {
+                let parent = self.states.all[index].parent;
+                let initial = if begins && !(is_pattern && parent.is_none()) { "initial " } else { "" };
+                format!("{initial}{}state", if compound { "composite " } else { "" })
+            }
         };
         let text = own("text").unwrap_or_else(|| spoken(&id));
-        self.shape(word, &name, &|what| if what == "text" { Some(text.clone()) } else { own(what) });
+        let shape = self.shape(&word, &name, &|what| if what == "text" { Some(text.clone()) } else { own(what) });
+        let around = self.frame_around(index);
+        if compound {
+            self.shapes.entry(around).or_default().push(Declared::Composite(shape, index));
+            self.frame(index);
+        } else {
+            self.declare(around, shape);
+        }
     }
 
     /// The name of a state on paths.
@@ -309,16 +374,17 @@ impl<'d, 'f> Reader<'d, 'f> {
         }
     }
 
-    /// The paths of a flat state: its own transitions, then those of the enclosing states.
-    fn transitions(&mut self, state: usize, is_pattern: bool, declared: &BTreeMap<String, Own>) {
+    /// The paths of a state: its own transitions; of a flat one also those of the enclosing states.
+    fn transitions(&mut self, state: usize, is_pattern: bool, declared: &BTreeMap<String, Own<'d>>) {
         let from = self.stop(state, is_pattern);
         let mut before = vec![from.clone()];
         let mut closed: Option<Span> = None;
-        for owner in self.states.around(state) {
+        let owners = if self.frames.is_some() { vec![state] } else { self.states.around(state) };
+        for owner in owners {
             let node = self.states.all[owner].node;
             for transition in node.children().filter(|child| is(*child, "transition")) {
                 let at = place(self.file, transition);
-                if self.own(transition, is_pattern, &from, declared) {
+                if self.own(transition, state, is_pattern, declared) {
                     continue;
                 }
                 if closed.is_some() {
@@ -337,7 +403,7 @@ impl<'d, 'f> Reader<'d, 'f> {
                 if !next.is_empty() {
                     std::mem::swap(&mut before, &mut next);
                 }
-                if let Some(guard) = self.condition(transition) {
+                if let Some(guard) = self.condition(transition, owner) {
                     self.lead(&mut before, &guard);
                     before = vec![format!("{guard} yes")];
                     next.push(format!("{guard} no"));
@@ -362,13 +428,15 @@ impl<'d, 'f> Reader<'d, 'f> {
     /// A guard for each event of a transition; any one of them suffices.
     fn events(&mut self, transition: Node<'d, 'd>) -> Vec<String> {
         let events = transition.attribute("event").unwrap_or_default().split_whitespace();
-        let all: Vec<&str> = events.collect();
+        // An instance of ours goes on when its pattern is left.
+        let is_block = transition.parent().is_some_and(|state| state.attribute((NAMESPACE, "of")).is_some());
+        let all: Vec<&str> = events.filter(|event| !(is_block && event.starts_with(DONE))).collect();
         all.into_iter().map(|event| self.guard(event, event_function(event), false)).collect()
     }
 
     /// A guard for the condition of a transition.
-    fn condition(&mut self, transition: Node<'d, 'd>) -> Option<String> {
-        let cond = transition.attribute("cond").filter(|cond| !cond.trim().is_empty())?;
+    fn condition(&mut self, transition: Node<'d, 'd>, owner: usize) -> Option<String> {
+        let cond = self.own_condition(transition, owner).filter(|cond| !cond.trim().is_empty())?;
         if self.asmetal && is_term(cond) {
             return Some(self.guard(cond, cond.to_string(), false));
         }
@@ -399,12 +467,13 @@ impl<'d, 'f> Reader<'d, 'f> {
     fn guard(&mut self, text: &str, link: String, to_refine: bool) -> String {
         let name = self.names.fresh(&function(text));
         let text = text.to_string();
-        self.shape("guard", &name, &|what| match what {
+        let shape = self.shape("guard", &name, &|what| match what {
             "text" => Some(text.clone()),
             "link" => Some(link.clone()),
             "refine" => to_refine.then(String::new),
             _ => None,
         });
+        self.declare(None, shape);
         name
     }
 
@@ -427,16 +496,28 @@ impl<'d, 'f> Reader<'d, 'f> {
         if ids.next().is_some() {
             self.faults.push(fault::no_counterpart(at, "a transition to several states", "lead it to one"));
         }
+        if self.frames.is_some() {
+            let Some(target) = self.framed_target(first, is_pattern) else {
+                self.faults.push(fault::unknown_target(at, first));
+                return None;
+            };
+            let actions = self.actions(transition);
+            if actions.len() > 1 {
+                self.sequences.push(actions.clone());
+            }
+            return Some((actions, target));
+        }
         let Some(target) = self.states.named(first) else {
             self.faults.push(fault::unknown_target(at, first));
             return None;
         };
         let leaf = self.leaf(target)?;
-        // The innermost state that contains both is neither left nor entered.
+        // The innermost state that contains both, and is not the target, is neither left nor entered.
         let (left, entered) = (self.states.around(state), self.states.around(leaf));
-        let internal = transition.attribute("type") == Some("internal") && entered.contains(&owner);
+        let around_target = &self.states.around(target)[1..];
+        let internal = transition.attribute("type") == Some("internal") && around_target.contains(&owner);
         let outer: Vec<usize> = self.states.around(owner).into_iter().skip(usize::from(!internal)).collect();
-        let stays = outer.into_iter().find(|around| entered.contains(around) && *around != target);
+        let stays = outer.into_iter().find(|around| around_target.contains(around));
         let upto =
             |states: &[usize]| -> Vec<usize> { states.iter().copied().take_while(|one| Some(*one) != stays).collect() };
         let mut actions = Vec::new();
@@ -465,6 +546,13 @@ impl<'d, 'f> Reader<'d, 'f> {
     }
 
     fn action(&mut self, node: Node<'d, 'd>) -> String {
+        let (name, shape) = self.action_as("action", node);
+        self.declare(None, shape);
+        name
+    }
+
+    /// Executable content as an action, by this word: its name and its declaration.
+    fn action_as(&mut self, word: &str, node: Node<'d, 'd>) -> (String, String) {
         let attribute = |name: &str| node.attribute(name).unwrap_or_default();
         let kind = node.tag_name().name();
         let text = match kind {
@@ -487,15 +575,20 @@ impl<'d, 'f> Reader<'d, 'f> {
         }
         let link = if in_asmetal { link } else { format!("{link}[]") };
         let name = self.names.fresh(&function(text.trim_start_matches("r_")));
-        self.shape("action", &name, &|what| match what {
+        let shape = self.shape(word, &name, &|what| match what {
             "text" => Some(text.clone()),
             "link" => Some(link.clone()),
             "refine" => (!in_asmetal).then(String::new),
             _ => None,
         });
-        name
+        (name, shape)
     }
 }
+
+const HISTORY: &str = "keep the last state in a function of the specification, and test it with guards";
+
+/// How the event begins that ends an instance's pattern.
+const DONE: &str = "done.invoke.";
 
 /// The Boolean function that is true when an event comes; `*` stands for any event.
 fn event_function(event: &str) -> String {

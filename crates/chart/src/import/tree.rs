@@ -36,6 +36,8 @@ pub(super) struct States<'d> {
     named: BTreeMap<String, usize>,
     /// The first state in each state, and in the whole machine.
     first: BTreeMap<Option<usize>, usize>,
+    /// The pseudo-states `history`, with the states that they stand in.
+    pub(super) histories: Vec<(Node<'d, 'd>, Option<usize>)>,
 }
 
 /// The span of the element's name in its start tag.
@@ -103,7 +105,7 @@ impl<'d> States<'d> {
                     continue;
                 }
                 "history" => {
-                    faults.push(fault::no_counterpart(place(file, child), "`history`", HISTORY));
+                    self.histories.push((child, parent));
                     continue;
                 }
                 _ => continue,
@@ -125,9 +127,14 @@ impl<'d> States<'d> {
         }
     }
 
-    /// The state with this id.
+    /// The state with this id, or with a `history` with this id.
     pub(super) fn named(&self, id: &str) -> Option<usize> {
-        self.named.get(id).copied()
+        self.named.get(id).copied().or_else(|| self.remembered(id))
+    }
+
+    /// The state in which the `history` with this id stands.
+    pub(super) fn remembered(&self, id: &str) -> Option<usize> {
+        self.histories.iter().find(|(node, _)| node.attribute("id") == Some(id))?.1
     }
 
     /// The initial state with this id, of a state or of the whole machine.
@@ -157,4 +164,3 @@ impl<'d> States<'d> {
 }
 
 const PARALLEL: &str = "make a machine of each region: the machines of a chart run in parallel";
-const HISTORY: &str = "keep the last state in a function of the specification, and test it with guards";

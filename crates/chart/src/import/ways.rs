@@ -1,9 +1,9 @@
 //! Paths of our own export, as arrows between shapes.
 //!
 //! In: paths, each as the names of its stops; those of one origin in the order of the export, which takes the `yes` exit of a guard
-//! before its `no` exit. Out: paths over shapes of which each has one way on from each exit. The export of a machine with composite
-//! states names a shape on many paths, which go on differently: each of these gets a shape of its own, a copy. INVARIANT: stops of one
-//! name that go on alike are one shape, so a machine without composite states is read back without copies. SYNC(scxml): `export.rs`.
+//! before its `no` exit. Out: paths over shapes of which each has one way on from each exit. Where another tool has led one of several
+//! paths over a shape elsewhere, they go on differently: each of these gets a shape of its own, a copy. INVARIANT: stops of one
+//! name that go on alike are one shape, so what no tool has changed is read back without copies. SYNC(scxml): `export.rs`.
 
 use std::collections::BTreeMap;
 
