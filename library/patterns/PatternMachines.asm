@@ -35,6 +35,23 @@ definitions:
 			r_leavePhase[$c]
 		endpar
 
+	// The machine is left from outside, as by an emergency stop, in whatever state it is: its task keeps nothing. Who leaves it
+	// sets the control state to undef, and says where the task goes on.
+	rule r_abortPattern($c in Scheduler) =
+		let ($b = sharedMemory(scheduler_currentPhase($c)), $t = scheduler_mainThread($c)) in
+			par
+				switch sb_ctrlState(scheduler_currentPhase($c))
+					case WRITING: r_SwingingBuffer_cutOffWrite[$b]
+					case READING: r_SwingingBuffer_endRead[$b]
+				endswitch
+				if sem_state(sem($b), $t) = EXECUTION then
+					r_releaseSb[$c]
+				else
+					r_SwingingBuffer_giveUp[$b, $t]
+				endif
+			endpar
+		endlet
+
 	// The lock is busy, or just granted: try again. Only the busy one counts as waiting.
 	rule r_retryManaging($c in Scheduler) =
 		par

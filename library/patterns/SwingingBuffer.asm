@@ -33,6 +33,8 @@ signature:
 	controlled indexUpdated: SwingingBuffer -> Boolean
 	// the array at `indexWrite` holds a datum that was not handed over yet
 	controlled sb_pending: SwingingBuffer -> Boolean
+	// true if the latest writing was cut off: what stands in the array at `indexWrite` is never handed over
+	controlled sb_cutOff: SwingingBuffer -> Boolean
 
 	controlled sb_data: Prod(SwingingBuffer, ArrayIndex) -> Integer
 	// 0: nothing was ever written there
@@ -53,7 +55,7 @@ signature:
 	controlled sb_written: SwingingBuffer -> Integer
 	controlled sb_swaps: SwingingBuffer -> Integer
 	controlled sb_delivered: SwingingBuffer -> Integer
-	// overwritten before it was handed over
+	// overwritten before it was handed over, or cut off while it was written
 	controlled sb_overwritten: SwingingBuffer -> Integer
 	// handed over, and replaced before it was read
 	controlled sb_unread: SwingingBuffer -> Integer
@@ -83,7 +85,10 @@ definitions:
 	// The reader's array is the newest one handed over, and readings never go back in time.
 	function sb_newest($b in SwingingBuffer) =
 		sb_receivedSequence($b) <= sb_newestSequence($b)
-		and sb_written($b) = (if sb_pending($b) then sb_sequence($b, indexWrite($b)) else sb_newestSequence($b) endif)
+		and (
+			sb_cutOff($b) = true
+			or sb_written($b)
+				= (if sb_pending($b) then sb_sequence($b, indexWrite($b)) else sb_newestSequence($b) endif))
 
 	// No datum disappears without being counted.
 	function sb_accounted($b in SwingingBuffer) =
@@ -131,11 +136,23 @@ definitions:
 				if sb_pending($b) then
 					sb_overwritten($b) := sb_overwritten($b) + 1
 				endif
+				if sb_cutOff($b) = true then
+					sb_cutOff($b) := false
+				endif
 			endpar
 		endlet
 
 	rule r_SwingingBuffer_endWrite($b in SwingingBuffer) =
 		sb_writingArray($b) := undef
+
+	// A writing ends before its datum is whole. What it has replaced is lost, too.
+	rule r_SwingingBuffer_cutOffWrite($b in SwingingBuffer) =
+		par
+			r_SwingingBuffer_endWrite[$b]
+			sb_pending($b) := false
+			sb_cutOff($b) := true
+			sb_overwritten($b) := sb_overwritten($b) + 1
+		endpar
 
 	// A buffer in which nothing was handed over yet gives nothing, and says so by `sb_fresh`.
 	rule r_SwingingBuffer_read($b in SwingingBuffer) =

@@ -10,7 +10,8 @@ import ../patterns/ControlTask
 import Quotient
 
 signature:
-	enum domain Happening = {WRITES | READS | WRITES_AND_READS | STOPS_WRITING | STOPS_READING | SWAPS | LEAVES_OUT}
+	enum domain Happening = {
+		WRITES | READS | WRITES_AND_READS | STOPS_WRITING | STOPS_READING | CUTS_OFF | SWAPS | LEAVES_OUT}
 	domain Arrays subsetof Integer
 
 	static buffer: SwingingBuffer
@@ -35,6 +36,8 @@ signature:
 	controlled mustBeFresh: Boolean
 	controlled isWriting: Boolean
 	controlled isReading: Boolean
+	// the last writing was cut off
+	controlled isCutOff: Boolean
 	// what came of the last step is what had to come
 	controlled isCounted: Boolean
 	controlled isTurned: Boolean
@@ -65,6 +68,7 @@ definitions:
 			case WRITES_AND_READS: not isWriting and not isReading
 			case STOPS_WRITING: isWriting
 			case STOPS_READING: isReading
+			case CUTS_OFF: isWriting
 			case SWAPS: not isWriting and not isReading
 			otherwise not slaveWorks
 		endswitch
@@ -80,6 +84,7 @@ definitions:
 				endpar
 			case STOPS_WRITING: r_SwingingBuffer_endWrite[buffer]
 			case STOPS_READING: r_SwingingBuffer_endRead[buffer]
+			case CUTS_OFF: r_SwingingBuffer_cutOffWrite[buffer]
 			case SWAPS: r_SwingingBuffer_updateIndexes[buffer]
 			otherwise
 				if asReader then
@@ -126,10 +131,18 @@ definitions:
 						newest := sb_staged(buffer)
 						isPending := true
 						isWriting := true
+						isCutOff := false
 					endpar
 				endif
 				if $h = STOPS_WRITING then
 					isWriting := false
+				endif
+				if $h = CUTS_OFF then
+					par
+						isPending := false
+						isWriting := false
+						isCutOff := true
+					endpar
 				endif
 				if $reads then
 					par
@@ -156,7 +169,7 @@ definitions:
 				endif
 				isCounted :=
 					sb_written(buffer) - $written = increment($writes)
-					and sb_overwritten(buffer) = 10 + increment($writes and isPending)
+					and sb_overwritten(buffer) = 10 + increment($writes and isPending or $h = CUTS_OFF)
 					and sb_swaps(buffer) - $swaps = increment($h = SWAPS and isPending)
 					and sb_unread(buffer) = 20 + increment($h = SWAPS and isPending and isUnread)
 					and sb_delivered(buffer) - $delivered = increment($reads and isUnread)
@@ -181,6 +194,8 @@ definitions:
 	invariant inv_pending over sb_pending: sb_pending(buffer) = isPending
 	invariant inv_working over sb_writingArray, sb_readingArray:
 		isDef(sb_writingArray(buffer)) = isWriting and isDef(sb_readingArray(buffer)) = isReading
+	// it is remembered until the next writing that one was cut off
+	invariant inv_cutOff over sb_cutOff: (sb_cutOff(buffer) = true) = isCutOff
 	// a reading gives what was handed over last, and its array stays as it is
 	invariant inv_received over sb_received: sb_received(buffer) = due
 	invariant inv_whole over sb_data: isReading implies sb_data(buffer, sb_readingArray(buffer)) = due
@@ -231,5 +246,6 @@ default init s0:
 	function mustBeFresh = false
 	function isWriting = false
 	function isReading = false
+	function isCutOff = false
 	function isCounted = true
 	function isTurned = true

@@ -150,6 +150,20 @@ fn a_chart_takes_built_in_patterns() {
     check(folder.path(), &["chart", "draw", "Cell.chart", "-o", "cell.svg"], 0);
     check(folder.path(), &["chart", "build", "Cell.chart"], 0);
     check(folder.path(), &["check", "Cell.asm"], 0);
+    // A stop leaves a pattern at work, which gives back what it holds.
+    let chart = "chart Stopped\nimport StandardLibrary\nimport \"patterns/PatternMachines.chart\"\nmachine robot($c in Scheduler)\n\tcontrol mode\n\
+                 \tinitial composite state working\n\t\tinitial state ready\n\t\tinstance reading of asyncSlave($c)\n\tendstate\n\
+                 \tstate stopped\n\tguard stop\n\tready -> reading -> ready\n\tworking -> stop yes -> stopped\nendmachine\n";
+    fs::write(folder.path().join("Stopped.chart"), chart).expect("a chart");
+    let said = check(folder.path(), &["chart", "build", "Stopped.chart"], 1);
+    assert!(said.contains("an import declares `READY`, which `ready` becomes in the model, too"), "{said}");
+    assert_eq!(said.matches("error[").count(), 1, "{said}");
+    fs::write(folder.path().join("Stopped.chart"), chart.replace("ready", "resting")).expect("a chart");
+    check(folder.path(), &["chart", "build", "Stopped.chart"], 0);
+    check(folder.path(), &["check", "Stopped.asm"], 0);
+    let built = fs::read_to_string(folder.path().join("Stopped.asm")).expect("the model");
+    let given_back = "if isDef(sb_ctrlState(scheduler_currentPhase($c))) then r_abortPattern[$c] endif";
+    assert!(built.contains(given_back), "{built}");
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! Names of the modules that building adds to a chart's imports, and that the chart's own imports have, too.
+//! Names that stand twice in what is built of a chart: those of the modules that building adds, and the literals of its states.
 
 use std::collections::BTreeSet;
 
@@ -7,13 +7,37 @@ use syntax::Diagnostic;
 
 use super::folder_of_patterns;
 use super::known::Known;
+use super::spelling::state_value;
 use super::system::added;
-use crate::chart::Chart;
+use crate::chart::{Chart, Control, Machine, Shape, ShapeId, ShapeKind};
 use crate::fault;
+use crate::flow::is_block;
 
-/// The names that modules of the library declare which building adds to the chart's imports, and that these declare, too. `known` is what
-/// the chart's imports declare; `beside` names a file in its folder.
+/// The names that the chart's imports declare and that building declares, too: in modules of the library that it adds, and as literals of
+/// control states. `known` is what the chart's imports declare; `beside` names a file in its folder.
 pub fn clashes(chart: &Chart, known: &Known, beside: &str, loader: &mut dyn Loader) -> Vec<Diagnostic> {
+    let mut faults: Vec<Diagnostic> =
+        chart.machines.iter().flat_map(|machine| literals(chart, machine, known)).collect();
+    faults.extend(of_modules(chart, known, beside, loader));
+    faults
+}
+
+/// The states whose literals an import declares.
+fn literals(chart: &Chart, machine: &Machine, known: &Known) -> Vec<Diagnostic> {
+    if !matches!(machine.control, Some(Control::Made { .. })) {
+        return Vec::new();
+    }
+    let is_made = |(id, shape): &(ShapeId, &Shape)| match shape.kind {
+        ShapeKind::State { .. } => shape.link.is_none(),
+        _ => is_block(chart, machine, *id),
+    };
+    let value = |(id, shape)| (state_value(chart, machine, id), shape);
+    let values = machine.numbered().filter(is_made).map(value).filter(|(value, _)| known.terms.contains(value));
+    values.map(|(value, shape): (String, &Shape)| fault::import::literal(shape.span, &shape.name, &value)).collect()
+}
+
+/// The names that modules of the library declare which building adds to the chart's imports, and that these declare, too.
+fn of_modules(chart: &Chart, known: &Known, beside: &str, loader: &mut dyn Loader) -> Vec<Diagnostic> {
     let Some(system) = &chart.system else { return Vec::new() };
     let own = known.all();
     let patterns: Vec<String> =

@@ -46,6 +46,17 @@ pub(crate) fn no_model(span: Span, found: &Diagnostic, chart: Option<&str>) -> D
     }
 }
 
+/// A control state becomes a literal that an import declares.
+pub(crate) fn literal(span: Span, state: &str, value: &str) -> Diagnostic {
+    Diagnostic::error(
+        "made-name",
+        span,
+        format!("an import declares `{value}`, which `{state}` becomes in the model, too"),
+    )
+    .here(format!("the control state's value is the literal `{value}`"))
+    .with_help(format!("name the state otherwise, or link it to another value: `{state} {{MY_{value}}}`"))
+}
+
 /// A module that is added declares a name that is there.
 pub(crate) fn clash(span: Span, name: &str, module: &str) -> Diagnostic {
     Diagnostic::error("made-name", span, format!("an import declares `{name}`, and so does `{module}` of the library"))
