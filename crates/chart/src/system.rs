@@ -45,8 +45,17 @@ pub struct AgeBound {
     pub from: Named,
     /// The component or actuator that gets what rests on them.
     pub to: Named,
+    /// The one of its ways that it is about, by its number; otherwise it is about all.
+    pub way: Option<usize>,
     /// Where it is stated.
     pub span: Span,
+}
+
+impl AgeBound {
+    /// The name of the invariant that says so of the bound with this number in its system, the first one 0.
+    pub fn invariant(&self, number: usize) -> String {
+        format!("inv_age{}_{}_to_{}", number + 1, self.from.text, self.to.text)
+    }
 }
 
 /// How many deadlines a task may miss: at most so many of any successive cycles.

@@ -27,6 +27,14 @@ pub(crate) fn ends(system: &System, name: &str) -> Vec<usize> {
 
 /// The ways of a bound, each through a component at most once: the first component and the channels. At most [`WAYS`] and one more.
 pub(crate) fn ways(system: &System, bound: &AgeBound) -> Vec<(usize, Vec<usize>)> {
+    let all = all_ways(system, bound);
+    match bound.way {
+        Some(number) => all.into_iter().skip(number).take(1).collect(),
+        None => all,
+    }
+}
+
+fn all_ways(system: &System, bound: &AgeBound) -> Vec<(usize, Vec<usize>)> {
     let last = ends(system, &bound.to.text);
     let mut found = Vec::new();
     for first in ends(system, &bound.from.text) {

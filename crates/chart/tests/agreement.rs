@@ -105,7 +105,7 @@ fn a_change_of_the_library_is_found() {
             "if givesUp($c) then\n\t\t\tpar\n\t\t\t\tr_giveUpSb[$c]\n\t\t\t\tr_startReading",
             "if givesUp($c) then\n\t\t\tpar\n\t\t\t\tr_startReading",
         ),
-        ("case READING:", "case WRITING:"),
+        ("case READING:\n\t\t\t\t\tr_finishReading", "case WRITING:\n\t\t\t\t\tr_finishReading"),
         ("sb_ctrlState(scheduler_currentPhase($c)) := undef", "sb_ctrlState(scheduler_currentPhase($c)) := READING"),
     ] {
         assert!(specification.contains(from), "the library has no {from:?}");

@@ -63,7 +63,9 @@ pub use owed::{Owed, OwedProof, owed};
 pub use owed_leaving::{Leaving, leaving};
 pub use proof_on_part::{PartQuestion, PartSearch, ProofOnPart, SystemParts};
 pub use test::{SeededChoices, Suite, Tested, own_files};
-pub use verified_system::{GroundRun, ReducedSystem, VerifiedSystem, not_kept, reduced_system, verified_system};
+pub use verified_system::{
+    AgedWay, GroundRun, ReducedSystem, VerifiedSystem, aged_ways, not_kept, reduced_system, verified_system,
+};
 pub use verify_preserved::verify_preserved;
 pub use workspace::Workspace;
 pub use {

@@ -95,6 +95,41 @@ pub fn reduced_system(
     Ok(Some(ReducedSystem { system, free, undefined, components }))
 }
 
+/// A way of an age bound, to verify by itself.
+#[derive(Debug)]
+pub struct AgedWay {
+    /// The number of the bound in the chart.
+    pub bound: usize,
+    /// The name of its invariant in the model of the whole system.
+    pub invariant: String,
+    /// The model to search: its only property says that no datum comes too old on this way.
+    pub loaded: Loaded,
+}
+
+/// The ways of a system's age bounds, each with a model in which asynchronous elaborations beside it take any time: what holds of the
+/// ages there holds of the system, and there are far fewer states than where all times count. What machines decide is left out: it changes
+/// no time.
+///
+/// # Errors
+/// As [`verified_system`].
+pub fn aged_ways(root: SourceFile, loader: &mut dyn Loader) -> Result<Vec<AgedWay>, Vec<Located>> {
+    let verifiable = Verifiable::load(root, loader)?;
+    let part = chart::verifiable(&verifiable.chart, &|_| false);
+    let Some((system, library)) = part.system.as_ref().zip(chart::library(&part)) else { return Ok(Vec::new()) };
+    let mut found = Vec::new();
+    for (bound, stated) in system.bounds.iter().enumerate() {
+        for way in 0..chart::ways::followed(system, stated).len() {
+            let Some(text) = chart::verified(&part, &[], Lengths::AnyBeside { bound, way }) else { continue };
+            let name = format!("{}{}InTicks.asm", verifiable.folder, verifiable.chart.name);
+            let mut loaded = load_with(&library, name, text, loader)?;
+            let program = Arc::make_mut(&mut loaded.program);
+            program.properties.retain(|property| property.name.starts_with("inv_age"));
+            found.push(AgedWay { bound, invariant: stated.invariant(bound), loaded });
+        }
+    }
+    Ok(found)
+}
+
 /// A chart whose system can be verified.
 struct Verifiable {
     chart: Chart,
@@ -142,11 +177,7 @@ impl Verifiable {
             Ok(built) => built.text,
             Err(faults) => return Err(vec![(Sources::default(), faults)]),
         };
-        let mut load_as = |name: String, text: String| {
-            let root = SourceFile::new(name, text);
-            let mut loader = Libraries { root: root.name.clone(), library: &library, loader };
-            load(root, &mut loader).map_err(|faulty| vec![(faulty.sources, faulty.diagnostics)])
-        };
+        let mut load_as = |name: String, text: String| load_with(&library, name, text, loader);
         let name = format!("{folder}{}InTicks.asm", chart.name);
         let general = if any == drawn { None } else { Some(load_as(name.clone(), any)?) };
         let loaded = load_as(name, drawn)?;
@@ -162,6 +193,13 @@ impl Verifiable {
         let data = chart::kept(&part);
         Ok(Box::new(VerifiedSystem { chart, part, data, loaded, general, warnings, ground, whole }))
     }
+}
+
+/// Loads a verified or a ground model, over the pattern library in this folder.
+fn load_with(library: &str, name: String, text: String, loader: &mut dyn Loader) -> Result<Loaded, Vec<Located>> {
+    let root = SourceFile::new(name, text);
+    let mut loader = Libraries { root: root.name.clone(), library, loader };
+    load(root, &mut loader).map_err(|faulty| vec![(faulty.sources, faulty.diagnostics)])
 }
 
 /// The libraries of a verified model: the verification library is the built-in one, the pattern library that of the chart.

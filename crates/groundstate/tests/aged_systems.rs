@@ -5,7 +5,7 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 
 use chart::times::{Order, Platform, times};
 use groundstate::verify::{Options, Outcome, Report, Subject, verify};
-use groundstate::{Loaded, VerifiedSystem, verified_system};
+use groundstate::{AgedWay, Loaded, VerifiedSystem, aged_ways, verified_system};
 use machine::{Choice, Closed, Environment, Limits, LocationRef, Machine, TimeUnit, Value};
 use program::{DomainId, Program, PropertyKind};
 use syntax::SourceFile;
@@ -176,6 +176,14 @@ fn bounds_without_a_search_hold_in_every_run() {
         let age = (0..3).map(|seed| oldest(&asked, seed, 120)).max().expect("there are runs");
         assert!(age <= most && age > 0, "seed {seed}: {age} of {most}\n{text}");
         tight += usize::from(age * 2 >= most);
+        // Nor is it proved on each of its ways by itself.
+        let root = SourceFile::new("Aged.chart", with_limit(&text, age - 1));
+        let ways = aged_ways(root, &mut Patterns).unwrap_or_else(|faults| panic!("{faults:#?}"));
+        let is_proved = |way: &AgedWay| {
+            let report = searched(&way.loaded, 3 * states);
+            report.complete && report.verdicts.iter().all(|verdict| matches!(verdict.outcome, Outcome::Holds))
+        };
+        assert!(!ways.is_empty() && !ways.iter().all(is_proved), "seed {seed}: {age}\n{text}");
         if refuted < 1 || full {
             let shorter = system(&with_limit(&text, age - 1));
             let report = searched(&shorter.loaded, 30 * states);

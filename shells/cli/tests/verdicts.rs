@@ -89,3 +89,47 @@ fn a_name_of_a_module_that_building_adds() {
     let (code, text) = said(folder.path(), &["chart", "build", "Arm.chart"]);
     assert_eq!(code, Some(0), "{text}");
 }
+
+/// An age bound is decided on each way by itself, if that is enough: an asynchronous task beside the way may take any time then.
+#[test]
+fn an_age_that_is_proved_on_its_ways() {
+    const CHART: &str = "chart Line\n\
+    import patterns/ControlTask\n\
+    system line\n\
+    tick 1 ms\n\
+    component eye synchronous period 6 ms\n\
+    elaborate look 1 ms\n\
+    write marks 1 ms\n\
+    write spots 1 ms\n\
+    endcomponent\n\
+    component mind asynchronous awaits marks\n\
+    read marks 1 ms\n\
+    elaborate think 2..4 ms\n\
+    write turns 1 ms\n\
+    endcomponent\n\
+    component book asynchronous awaits spots\n\
+    read spots 1 ms\n\
+    elaborate note 2..7 ms\n\
+    endcomponent\n\
+    component hand synchronous period 4 ms\n\
+    read turns 1 ms\n\
+    elaborate turn 1 ms\n\
+    endcomponent\n\
+    channel marks from eye to mind swinging buffer 2\n\
+    channel spots from eye to book swinging buffer 2\n\
+    channel turns from mind to hand swinging buffer 2\n\
+    within LIMIT ms from eye to hand\n\
+    endsystem\n";
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let verify = |limit: &str| {
+        std::fs::write(folder.path().join("Line.chart"), CHART.replace("LIMIT", limit)).expect("it can be written");
+        said(folder.path(), &["verify", "Line.chart"])
+    };
+    let (code, text) = verify("24");
+    let holds =
+        "holds     inv_age1_eye_to_hand (each way by itself, for asynchronous elaborations beside it of any length)";
+    assert!(code == Some(0) && text.contains(holds), "{text}");
+    let (code, text) = verify("22");
+    assert!(code == Some(1) && text.contains("violated  inv_age1_eye_to_hand, after "), "{text}");
+    assert!(!text.contains(" inv_age1_eye_to_hand (each way"), "{text}");
+}

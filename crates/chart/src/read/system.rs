@@ -147,7 +147,8 @@ impl Reader {
             }
         }
         let named = |token: &SyntaxToken, span| Named { text: token.text().to_string(), span };
-        let bound = AgeBound { limit, from: named(&from, self.span(&from)), to: named(&to, self.span(&to)), span };
+        let end = |token: &SyntaxToken| named(token, self.span(token));
+        let bound = AgeBound { limit, from: end(&from), to: end(&to), way: None, span };
         let device = |name: &str| system.devices.iter().find(|device| device.name == name);
         let reason = match (device(from.text()), device(to.text())) {
             _ if strangers => None,
