@@ -8,6 +8,7 @@ mod ages;
 mod clash;
 mod figures;
 mod known;
+mod lengths;
 mod merge;
 mod module;
 mod observed;
@@ -20,13 +21,14 @@ pub use clash::clashes;
 pub use figures::{Figure, figures};
 pub(crate) use known::OWNED;
 pub use known::{Known, Unknown};
+pub use lengths::Lengths;
 pub(crate) use rule::{machine_rule, origin_condition};
 pub(crate) use spelling::{
     answer_location, answer_name, call, control_location, function_name, inner_control, instance_call, memory_location,
     of_instance, rule_name, state_value,
 };
 pub(crate) use system::taken;
-pub use system::{Lengths, budget, busy, late};
+pub use system::{budget, busy, late};
 
 use crate::chart::{Chart, Control, Machine, ShapeKind};
 use crate::component::{Cut, Reduction};

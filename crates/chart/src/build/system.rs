@@ -4,7 +4,6 @@
 //! phase comes last. The patterns select the reading and writing machines by kind and role. So kinds, masters, periods
 //! and times are data of the initial state. Elaborations are rules; they are written by hand and kept.
 
-use std::collections::BTreeSet;
 use std::fmt::Write;
 
 use syntax::Diagnostic;
@@ -12,6 +11,7 @@ use syntax::Diagnostic;
 use super::ages::Ages;
 use super::known::Known;
 use super::known::missing;
+use super::lengths::{Lengths, varies};
 use super::module::{Item, Parts};
 use super::observed;
 use super::table::{by_case, waiting};
@@ -19,8 +19,7 @@ use crate::chart::Chart;
 use crate::component::{Carrying, carry, compose};
 use crate::computing::{Computing, Made};
 use crate::fault;
-use crate::system::{Action, AgeBound, ChannelKind, Component, Needs, Phase, System, Timing};
-use crate::ways::ways;
+use crate::system::{Action, ChannelKind, Component, Needs, Phase, System, Timing};
 
 /// The parts of a system that cannot be built.
 pub(super) fn unbuilt(system: &System, known: &Known) -> Vec<Diagnostic> {
@@ -168,11 +167,6 @@ fn computing(computing: &Computing, varies: bool, parts: &mut Parts) {
     parts.definitions.push(Item { name: "r_computingTask".to_string(), text, decided: true });
 }
 
-/// Whether the time of some elaboration varies.
-fn varies(system: &System) -> bool {
-    system.components.iter().flat_map(|component| &component.phases).any(|phase| phase.least < phase.time)
-}
-
 fn fixed(parts: &mut Parts, name: &str, text: &str) {
     parts.definitions.push(Item { name: name.to_string(), text: text.to_string(), decided: false });
 }
@@ -208,24 +202,7 @@ pub(super) fn without_rules(mut system: System) -> System {
 pub(super) fn verified(chart: &Chart, system: &System, library: &str, lengths: Lengths) -> Parts {
     let decided = (!system.computing.ends.is_empty()).then(|| by_place(system));
     let mut system = bare(system);
-    let free = match lengths {
-        Lengths::AsDrawn => Vec::new(),
-        Lengths::Any => set_free(&mut system, &|_| true),
-        Lengths::AnyBeside { bound, way } => {
-            let bound = AgeBound { way: Some(way), ..system.bounds[bound].clone() };
-            let through = components(&system, &bound);
-            system.bounds = vec![bound];
-            set_free(&mut system, &|component| !through.contains(&component))
-        }
-    };
-    // How old data are says nothing where elaborations on their way take any time.
-    let is_any = !free.is_empty() && lengths == Lengths::Any;
-    if is_any {
-        system.bounds.clear();
-    }
-    if is_any || matches!(lengths, Lengths::AnyBeside { .. }) {
-        observed::without_fresh(&mut system);
-    }
+    let free = lengths.free(&mut system);
     let mut parts = parts(chart, &system, &Known::default());
     // The tick lets actions end, whatever the tasks' rule.
     parts.definitions.retain(|item| item.name != "r_varyingTask");
@@ -297,49 +274,6 @@ pub(super) fn kept(system: &System) -> Vec<String> {
     let by_number = &system.computing.declarations;
     let made = by_place(system).declarations.into_iter().map(|made| made.name);
     made.filter(|name| by_number.iter().any(|known| known.name == *name)).collect()
-}
-
-/// How long the elaborations of asynchronous components take in the model that verifies a system.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Lengths {
-    /// As long as the chart says.
-    AsDrawn,
-    /// Any time, but not for ever, if the time of any elaboration varies. Each run of the system is such a run, and the states are far
-    /// fewer. If all times are fixed, there is only one run.
-    Any,
-    /// As drawn on one way of an age bound, any time beside it; of the age bounds only that of this way. Each run of the system is such a
-    /// run, with the same ages on this way.
-    AnyBeside {
-        /// The number of the bound.
-        bound: usize,
-        /// That of the way.
-        way: usize,
-    },
-}
-
-/// The components on the ways of a bound.
-fn components(system: &System, bound: &AgeBound) -> BTreeSet<usize> {
-    let channel = |channel: usize| [system.channels[channel].from, system.channels[channel].to];
-    let through = |(first, channels): (usize, Vec<usize>)| channels.into_iter().flat_map(channel).chain([first]);
-    ways(system, bound).into_iter().flat_map(through).collect()
-}
-
-/// Lets asynchronous components elaborate for any time; returns these, with their elaborations.
-fn set_free(system: &mut System, is_asked: &dyn Fn(usize) -> bool) -> Vec<(String, Vec<String>)> {
-    let mut free = Vec::new();
-    if !varies(system) {
-        return free;
-    }
-    let asynchronous =
-        |(index, component): &(usize, &mut Component)| component.timing.period().is_none() && is_asked(*index);
-    for (_, component) in system.components.iter_mut().enumerate().filter(asynchronous) {
-        let elaborations = component.phases.iter_mut().filter(|phase| matches!(phase.action, Action::Elaborate(_)));
-        let phases: Vec<String> = elaborations.map(|phase| (phase.least = 0, phase.name.clone()).1).collect();
-        if !phases.is_empty() {
-            free.push((component.name.clone(), phases));
-        }
-    }
-    free
 }
 
 /// Every task begins its cycle again and again.

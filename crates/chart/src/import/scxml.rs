@@ -7,6 +7,7 @@
 //! transition executes, in sequence, the exit actions, its own actions and the entry actions. What our own export wrote
 //! is read back shape by shape (`own`), with its composite states (`frames`).
 
+mod crowded;
 mod frames;
 mod own;
 
@@ -24,6 +25,7 @@ use crate::export::NAMESPACE;
 use crate::fault::foreign as fault;
 use crate::read::spoken;
 use crate::write::quoted;
+use crowded::{MAX_ATTRIBUTES, crowded_tag};
 use frames::Frames;
 use own::Own;
 
@@ -75,40 +77,6 @@ fn joined(file: FileId, text: &str) -> String {
     let (chart, faults) = crate::read::read(file, &parse);
     let is_whole = parse.diagnostics.iter().chain(&faults).all(|fault| fault.severity != Severity::Error);
     if is_whole { crate::write::write(&chart) } else { syntax::format(&parse) }
-}
-
-/// LIMIT: attributes of one element. The XML reader compares every pair of them.
-const MAX_ATTRIBUTES: usize = 1000;
-
-/// The place of the first tag with more attributes than that.
-fn crowded_tag(text: &str) -> Option<u32> {
-    let mut rest = text;
-    while let Some(start) = rest.find('<') {
-        rest = &rest[start..];
-        let tag = (text.len() - rest.len()) as u32;
-        // Text in these contains no attributes.
-        let other = [("<!--", "-->"), ("<![CDATA[", "]]>"), ("<?", "?>")];
-        if let Some((open, close)) = other.iter().find(|(open, _)| rest.starts_with(open)) {
-            let end = rest[open.len()..].find(close)?;
-            rest = &rest[open.len() + end..];
-            continue;
-        }
-        let (mut attributes, mut quote) = (0, None);
-        let end = rest.bytes().position(|byte| {
-            match (quote, byte) {
-                (None, b'"' | b'\'') => quote = Some(byte),
-                (None, b'=') => attributes += 1,
-                (Some(open), _) if open == byte => quote = None,
-                _ => {}
-            }
-            attributes > MAX_ATTRIBUTES || quote.is_none() && byte == b'>'
-        });
-        if attributes > MAX_ATTRIBUTES {
-            return Some(tag);
-        }
-        rest = &rest[end? + 1..];
-    }
-    None
 }
 
 fn offset(text: &str, at: roxmltree::TextPos) -> u32 {
