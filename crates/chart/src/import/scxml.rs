@@ -10,6 +10,7 @@
 mod crowded;
 mod frames;
 mod own;
+mod remembered;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
@@ -28,6 +29,7 @@ use crate::write::quoted;
 use crowded::{MAX_ATTRIBUTES, crowded_tag};
 use frames::Frames;
 use own::Own;
+use remembered::Remembered;
 
 /// Reads an SCXML document; `name` is the chart's name, `file` identifies the text in faults.
 pub fn scxml(file: FileId, text: &str, name: &str) -> Imported {
@@ -67,6 +69,7 @@ pub fn scxml(file: FileId, text: &str, name: &str) -> Imported {
     }
     out.push_str(&texts);
     faults.sort_by_key(|fault| fault.primary.span.start);
+    faults.dedup();
     let sound = faults.iter().all(|fault| fault.severity != Severity::Error);
     Imported { text: sound.then(|| joined(file, &out)), diagnostics: faults }
 }
@@ -95,6 +98,8 @@ struct Reader<'d, 'f> {
     names: Names,
     /// The composite states, if they can be read back.
     frames: Option<Frames>,
+    /// The composite states of a foreign document.
+    remembered: Remembered,
     /// The names of the states in the chart.
     called: BTreeMap<usize, String>,
     /// The declarations in each composite state, and outside of all.
@@ -128,10 +133,6 @@ impl<'d, 'f> Reader<'d, 'f> {
                 None
             }
         };
-        if frames.is_none() {
-            let at = |(node, _): &(Node<'d, 'd>, Option<usize>)| place(file, *node);
-            faults.extend(states.histories.iter().map(at).map(|at| fault::no_counterpart(at, "`history`", HISTORY)));
-        }
         Reader {
             file,
             document,
@@ -140,6 +141,7 @@ impl<'d, 'f> Reader<'d, 'f> {
             asmetal: document.attribute("datamodel") == Some("asmetal"),
             names: Names::default(),
             frames,
+            remembered: Remembered::default(),
             called: BTreeMap::new(),
             shapes: BTreeMap::new(),
             sequences: Vec::new(),
@@ -162,6 +164,14 @@ impl<'d, 'f> Reader<'d, 'f> {
         let declared = self.declared();
         self.unused(self.document);
         let start = if self.frames.is_some() { None } else { self.initial(self.root, None) };
+        if self.frames.is_none() && !self.states.histories.is_empty() {
+            let leaves: Vec<Option<usize>> = (0..self.states.all.len()).map(|state| self.leaf(state)).collect();
+            let found = Remembered::of(self.file, &self.states, start, &|state| leaves[state]);
+            self.remembered = found.unwrap_or_else(|refused| {
+                self.faults.push(*refused);
+                Remembered::default()
+            });
+        }
         for index in 0..self.states.all.len() {
             self.state(index, start, is_pattern);
         }
@@ -305,14 +315,18 @@ impl<'d, 'f> Reader<'d, 'f> {
             }
         }
         let ends = is_pattern && (id == "enter" || is(node, "final") && id == "exit");
-        if compound && self.frames.is_none() || ends {
+        let is_framed = self.frames.is_some() || self.remembered.first.contains_key(&index);
+        if compound && !is_framed || ends {
             return;
         }
         let name = self.names.fresh(&id);
         self.called.insert(index, name.clone());
         let begins = match &self.frames {
             Some(frames) => frames.is_first(index),
-            None => start == Some(index),
+            None => match self.states.all[index].parent.and_then(|parent| self.remembered.first.get(&parent)) {
+                Some(first) => *first == index,
+                None => start.is_some_and(|start| self.states.around(start).contains(&index)),
+            },
         };
         let word = match own("of") {
             Some(_) => "instance".to_string(),
@@ -479,10 +493,16 @@ impl<'d, 'f> Reader<'d, 'f> {
             self.faults.push(fault::unknown_target(at, first));
             return None;
         };
-        let leaf = self.leaf(target)?;
+        let history = self.states.is_history(first).then_some(target);
+        if history.is_some_and(|owner| self.states.around(state).contains(&owner)) {
+            let help = "lead it to the state itself, or to one in it";
+            self.faults.push(fault::no_counterpart(at, "a transition to the `history` of a state around it", help));
+            return None;
+        }
+        let leaf = if history.is_some() { target } else { self.leaf(target)? };
         // The innermost state that contains both, and is not the target, is neither left nor entered.
         let (left, entered) = (self.states.around(state), self.states.around(leaf));
-        let around_target = &self.states.around(target)[1..];
+        let around_target = &self.states.around(target)[usize::from(history.is_none())..];
         let internal = transition.attribute("type") == Some("internal") && around_target.contains(&owner);
         let outer: Vec<usize> = self.states.around(owner).into_iter().skip(usize::from(!internal)).collect();
         let stays = outer.into_iter().find(|around| around_target.contains(around));
@@ -552,8 +572,6 @@ impl<'d, 'f> Reader<'d, 'f> {
         (name, shape)
     }
 }
-
-const HISTORY: &str = "keep the last state in a function of the specification, and test it with guards";
 
 /// How the event begins that ends an instance's pattern.
 const DONE: &str = "done.invoke.";

@@ -132,6 +132,11 @@ impl<'d> States<'d> {
         self.named.get(id).copied().or_else(|| self.remembered(id))
     }
 
+    /// Whether this is the id of a `history`.
+    pub(super) fn is_history(&self, id: &str) -> bool {
+        !self.named.contains_key(id) && self.remembered(id).is_some()
+    }
+
     /// The state in which the `history` with this id stands.
     pub(super) fn remembered(&self, id: &str) -> Option<usize> {
         self.histories.iter().find(|(node, _)| node.attribute("id") == Some(id))?.1

@@ -165,12 +165,19 @@ fn beginnings<'d>(root: Node<'d, 'd>, states: &States<'d>) -> Result<Vec<bool>, 
 impl<'d> Reader<'d, '_> {
     /// The composite state in which a state is declared.
     pub(super) fn frame_around(&self, state: usize) -> Option<usize> {
-        self.frames.as_ref().and_then(|_| self.states.all[state].parent)
+        let parent = self.states.all[state].parent;
+        parent.filter(|parent| self.frames.is_some() || self.remembered.first.contains_key(parent))
     }
 
     /// What a composite state says besides its states: its history, and what it does when it is entered and left.
     pub(super) fn frame(&mut self, state: usize) {
         let node = self.states.all[state].node;
+        if self.frames.is_none() {
+            if self.remembered.with_history.contains(&state) {
+                self.declare(Some(state), "history".to_string());
+            }
+            return;
+        }
         if self.states.histories.iter().any(|(_, owner)| *owner == Some(state)) {
             let link = node.attribute((NAMESPACE, "history")).unwrap_or_default();
             self.declare(Some(state), format!("history {link}"));
