@@ -263,6 +263,21 @@ fn a_change_in_another_tool_is_kept() {
     assert!(back("<script>r_f[]</script>", "<script>r_h[]</script>").contains("{r_h[]}"));
 }
 
+#[test]
+fn a_linked_history_keeps_its_link_without_frames() {
+    let before = chart(
+        "chart C machine m control c initial state off composite state on history {wasOn} initial state slow state fast endstate
+         guard go guard up guard stop off -> go yes -> on slow -> up yes -> fast on -> stop yes -> off endmachine",
+    );
+    let document = scxml_of(&before, &before.machines[0]);
+    let own = "cond=\"not (stop) and up\"";
+    assert!(document.contains(own), "{document}");
+    let back = scxml(FileId(0), &document.replace(own, "cond=\"up\""), "C");
+    assert!(back.diagnostics[0].message.contains("without their frames"), "{:?}", back.diagnostics);
+    let text = back.text.expect("no errors");
+    assert!(text.contains("history {wasOn}"), "{text}");
+}
+
 /// Numbers that look random and are the same in every run.
 struct Dice(u64);
 
@@ -365,6 +380,7 @@ fn a_foreign_history() {
     }
     // Deep: each state within is entered where it was left.
     let text = read_back("<history id='back' type='deep'/>", "").text.expect("no errors");
+    assert!(text.contains("composite state on \"On\"\n\t\thistory\n"), "{text}");
     assert!(text.contains("composite state fast \"Fast\"\n\t\t\thistory"), "{text}");
     for (history, inside, told) in [
         ("<history id='back'/><history id='other'/>", "", "a second `history` of one state"),

@@ -100,9 +100,8 @@ pub fn reduced_system(
 pub struct AgedWay {
     /// The number of the bound in the chart.
     pub bound: usize,
-    /// The name of its invariant in the model of the whole system.
-    pub invariant: String,
-    /// The model to search: its only property says that no datum comes too old on this way.
+    /// The model to search. Its only property says that no datum comes too old on this way, and has the name that the bound's has in the
+    /// model of the whole system.
     pub loaded: Loaded,
 }
 
@@ -119,12 +118,16 @@ pub fn aged_ways(root: SourceFile, loader: &mut dyn Loader) -> Result<Vec<AgedWa
     let mut found = Vec::new();
     for (bound, stated) in system.bounds.iter().enumerate() {
         for way in 0..chart::ways::followed(system, stated).len() {
-            let Some(text) = chart::verified(&part, &[], Lengths::AnyBeside { bound, way }) else { continue };
+            let Some(text) = chart::verified(&part, &[], Lengths::AnyBeside { bound, way }) else {
+                unreachable!("it has a system and a library")
+            };
             let name = format!("{}{}InTicks.asm", verifiable.folder, verifiable.chart.name);
             let mut loaded = load_with(&library, name, text, loader)?;
             let program = Arc::make_mut(&mut loaded.program);
-            program.properties.retain(|property| property.name.starts_with("inv_age"));
-            found.push(AgedWay { bound, invariant: stated.invariant(bound), loaded });
+            // Alone, the bound is the first one.
+            program.properties.retain(|property| property.name == stated.invariant(0));
+            program.properties.iter_mut().for_each(|property| property.name = stated.invariant(bound));
+            found.push(AgedWay { bound, loaded });
         }
     }
     Ok(found)

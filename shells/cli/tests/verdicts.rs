@@ -129,6 +129,9 @@ fn an_age_that_is_proved_on_its_ways() {
     let holds =
         "holds     inv_age1_eye_to_hand (each way by itself, for asynchronous elaborations beside it of any length)";
     assert!(code == Some(0) && text.contains(holds), "{text}");
+    // Each bound under its own name.
+    let (code, text) = verify("24 ms from eye to hand\nwithin 30");
+    assert!(code == Some(0) && text.contains(holds) && text.contains(&holds.replace("age1", "age2")), "{text}");
     let (code, text) = verify("22");
     assert!(code == Some(1) && text.contains("violated  inv_age1_eye_to_hand, after "), "{text}");
     assert!(!text.contains(" inv_age1_eye_to_hand (each way"), "{text}");

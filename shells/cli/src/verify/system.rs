@@ -183,7 +183,8 @@ pub fn general(
     let drawn = system.chart.system.as_ref();
     let bounds = drawn.map_or(0, |drawn| drawn.bounds.len());
     let ages = if bounds > 0 { aged(shell, sought, &mut watch)? } else { Vec::new() };
-    proved.extend(ages.iter().map(|aged| ((Some(PropertyKind::Invariant), aged.way.invariant.clone()), EACH_WAY)));
+    let name = |aged: &Aged| aged.way.loaded.program.properties[0].name.clone();
+    proved.extend(ages.iter().map(|aged| ((Some(PropertyKind::Invariant), name(aged)), EACH_WAY)));
     left_out |= ages.len() < bounds || drawn.is_some_and(|drawn| drawn.has_fresh_bounds());
     if !all_hold || left_out {
         watch.hide();
@@ -225,13 +226,7 @@ fn aged(shell: &mut Shell, sought: &Sought<'_>, watch: &mut Watch) -> Result<Vec
     let root = disk.root(&arguments.model)?;
     let Ok(ways) = groundstate::aged_ways(root, &mut disk) else { return Ok(Vec::new()) };
     let until = arguments.bounded.time.map(|seconds| Instant::now() + Duration::from_secs(seconds) / 4);
-    let options = Options {
-        terminal: None,
-        bounds: Default::default(),
-        undefined: Default::default(),
-        max_states: options.max_states.min(AGED),
-        ..(*options).clone()
-    };
+    let options = without_data(options, AGED);
     let mut proved: BTreeMap<usize, Option<Aged>> = BTreeMap::new();
     for way in ways {
         if matches!(proved.get(&way.bound), Some(None)) {
@@ -291,14 +286,7 @@ pub fn timing(
     let root = disk.root(&arguments.model)?;
     let Ok(bare) = groundstate::verified_system(root, &[], &|_| false, &mut disk) else { return Ok(Proved::new()) };
     let until = arguments.bounded.time.map(|seconds| Instant::now() + Duration::from_secs(seconds) / 4);
-    // Inputs are those of machines.
-    let options = Options {
-        terminal: None,
-        bounds: Default::default(),
-        undefined: Default::default(),
-        max_states: options.max_states.min(TIMING),
-        ..(*options).clone()
-    };
+    let options = without_data(options, TIMING);
     let mut proved = Proved::new();
     for (loaded, more) in bare.general.iter().map(|general| (general, ANY_LENGTH)).chain([(&bare.loaded, WHATEVER)]) {
         let words = Verdicts::new(&loaded.program, &loaded.sources, false);
@@ -327,6 +315,17 @@ pub fn timing(
         }
     }
     Ok(proved)
+}
+
+/// The options of a search without machines, of at most so many states. Inputs are those of machines.
+fn without_data(options: &Options, states: u64) -> Options {
+    Options {
+        terminal: None,
+        bounds: Default::default(),
+        undefined: Default::default(),
+        max_states: options.max_states.min(states),
+        ..options.clone()
+    }
 }
 
 /// That of machines which are left out, none changes when tasks run.

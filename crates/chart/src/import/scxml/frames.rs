@@ -172,15 +172,17 @@ impl<'d> Reader<'d, '_> {
     /// What a composite state says besides its states: its history, and what it does when it is entered and left.
     pub(super) fn frame(&mut self, state: usize) {
         let node = self.states.all[state].node;
-        if self.frames.is_none() {
-            if self.remembered.with_history.contains(&state) {
-                self.declare(Some(state), "history".to_string());
-            }
-            return;
-        }
-        if self.states.histories.iter().any(|(_, owner)| *owner == Some(state)) {
+        let is_remembered = match &self.frames {
+            Some(_) => self.states.histories.iter().any(|(_, owner)| *owner == Some(state)),
+            None => self.remembered.with_history.contains(&state),
+        };
+        if is_remembered {
             let link = node.attribute((NAMESPACE, "history")).unwrap_or_default();
             self.declare(Some(state), format!("history {link}"));
+        }
+        // What else is done stands on paths.
+        if self.frames.is_none() {
+            return;
         }
         for Handler { word, element, shapes, script } in self.handlers_of(node) {
             let content: Vec<_> = node.children().filter(|child| is(*child, element)).collect();
