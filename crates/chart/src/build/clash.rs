@@ -24,8 +24,7 @@ pub fn clashes(chart: &Chart, known: &Known, beside: &str, loader: &mut dyn Load
 
 /// The states whose literals an import declares.
 fn literals(chart: &Chart, machine: &Machine, known: &Known) -> Vec<Diagnostic> {
-    // Where an import declares the control variable, nothing is made.
-    if !matches!(&machine.control, Some(Control::Made { name, .. }) if !known.terms.contains(name)) {
+    if !matches!(machine.control, Some(Control::Made { .. })) {
         return Vec::new();
     }
     let is_made = |(id, shape): &(ShapeId, &Shape)| match shape.kind {
