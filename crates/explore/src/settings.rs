@@ -21,6 +21,8 @@ pub struct Settings {
     /// Conditions on a state with the inputs of its step; whether each is an assumption, by which alternatives are left
     /// out.
     pub step_conditions: Vec<(Expression, bool)>,
+    /// From this condition on steps on, each second one is the negation of the one before, and is decided with it.
+    pub in_pairs_from: Option<usize>,
     /// What a [`crate::Visitor`] reads in steps.
     pub read_in_steps: Vec<Expression>,
     /// Nothing is remembered.
@@ -41,14 +43,38 @@ pub struct Settings {
 }
 
 impl Settings {
-    /// The conditions on steps with their numbers, in the order in which they are evaluated: assumptions first, since a step that
-    /// they exclude counts for nothing else.
-    pub(crate) fn checks_of_steps(&self) -> impl Iterator<Item = (u32, &Expression, bool)> {
-        let of = |wanted: bool| {
-            let numbered = (0..).zip(&self.step_conditions).filter(move |(_, (_, assumed))| *assumed == wanted);
-            numbered.map(|(index, (formula, assumed))| (index, formula, *assumed))
+    /// The conditions on steps in the order in which they are evaluated: assumptions first, since a step that they exclude counts for
+    /// nothing else.
+    pub(crate) fn checks_of_steps(&self) -> impl Iterator<Item = Check<'_>> {
+        let pairs = self.in_pairs_from.unwrap_or(usize::MAX);
+        let check = move |index: usize| {
+            let (formula, assumed) = &self.step_conditions[index];
+            let negation = (index >= pairs).then_some(index as u32 + 1);
+            Check { index: index as u32, formula, assumed: *assumed, negation }
         };
-        of(true).chain(of(false))
+        let is_evaluated = move |index: &usize| *index < pairs || (index - pairs).is_multiple_of(2);
+        let all = move || (0..self.step_conditions.len()).filter(is_evaluated).map(check);
+        all().filter(|check| check.assumed).chain(all().filter(|check| !check.assumed))
+    }
+}
+
+/// A condition on a step.
+pub(crate) struct Check<'s> {
+    pub index: u32,
+    pub formula: &'s Expression,
+    /// Whether it excludes steps.
+    pub assumed: bool,
+    /// The number of its negation.
+    pub negation: Option<u32>,
+}
+
+/// Notes which of a condition and its negation fail. What is neither true nor false, or cannot be evaluated, fails as both.
+pub(crate) fn note_failures(truth: Option<bool>, (index, negation): (u32, Option<u32>), failed: &mut Vec<u32>) {
+    if truth != Some(true) {
+        failed.push(index);
+    }
+    if truth != Some(false) {
+        failed.extend(negation);
     }
 }
 

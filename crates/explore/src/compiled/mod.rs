@@ -23,7 +23,7 @@ use crate::packed::codes::finite;
 use crate::packed::encoding::Encoding;
 use crate::packed::interner::{Interner, View};
 use crate::packed::words::{NOWHERE, Overwrite, REST};
-use crate::settings::Settings;
+use crate::settings::{Check, Settings, note_failures};
 use crate::starts::{Starts, each_start};
 use codec::Codec;
 
@@ -40,7 +40,7 @@ pub(crate) struct Compiled {
     /// By word of a packed state, the fields in it.
     fields: Vec<Vec<usize>>,
     /// In the order of their evaluation.
-    step_conditions: Vec<(u32, Expression, bool)>,
+    step_conditions: Vec<StepCondition>,
     /// The packed state that the machine is in.
     loaded: Vec<u64>,
     /// What stands in the fields of the inputs that initial states keep where none is kept.
@@ -49,6 +49,14 @@ pub(crate) struct Compiled {
     touched: u64,
     next: Vec<u64>,
     failed: Vec<u32>,
+}
+
+/// A condition on a step, and maybe its negation.
+#[derive(Debug)]
+struct StepCondition {
+    numbers: (u32, Option<u32>),
+    formula: Expression,
+    assumed: bool,
 }
 
 /// What an alternative came to.
@@ -111,7 +119,11 @@ impl Compiled {
             view,
             step_conditions: settings
                 .checks_of_steps()
-                .map(|(index, formula, assumed)| (index, formula.clone(), assumed))
+                .map(|Check { index, formula, assumed, negation }| StepCondition {
+                    numbers: (index, negation),
+                    formula: formula.clone(),
+                    assumed,
+                })
                 .collect(),
             loaded: first,
             asks_all,
@@ -164,13 +176,14 @@ impl Compiled {
             return Step::Unknown;
         }
         self.failed.clear();
-        for (index, formula, assumed) in &self.step_conditions {
-            match self.machine.evaluate(formula, &mut self.branches) {
-                Ok(Value::Boolean(true)) => {}
+        for StepCondition { numbers, formula, assumed } in &self.step_conditions {
+            let truth = match self.machine.evaluate(formula, &mut self.branches) {
+                Ok(Value::Boolean(truth)) if truth || !assumed => Some(truth),
                 Ok(_) if *assumed => return Step::Excluded,
                 Err(fault) if *assumed || !fault.kind.is_of_the_model() => return Step::Unknown,
-                Ok(_) | Err(_) => self.failed.push(*index),
-            }
+                Ok(_) | Err(_) => None,
+            };
+            note_failures(truth, *numbers, &mut self.failed);
         }
         let Compiled { program, machine, encoding, view, codecs, next, touched, .. } = self;
         // Compiled code stamps no location that it knows to be updated once, so the updates are not found by their stamps.

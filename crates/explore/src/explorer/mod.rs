@@ -39,7 +39,7 @@ use crate::packed::interner::{Interner, View};
 use crate::packed::kept::{Kept, is_input};
 use crate::packed::widening::{TooNarrow, Widening};
 use crate::packed::words::{Overwrite, REST};
-use crate::settings::{Settings, Trouble};
+use crate::settings::{Settings, Trouble, note_failures};
 use crate::starts::origin::Origins;
 use crate::starts::{Begun, Starts, each_start};
 use makers::Makers;
@@ -373,8 +373,8 @@ impl Explorer {
     fn check_step(&mut self, attempt: &mut Attempt, made: Result<(), Fault>, read: &mut Read<'_>) -> Result<(), Fault> {
         let Explorer { settings, machine, branches, .. } = self;
         let mut unclear = None;
-        for (_, formula, _) in settings.checks_of_steps().take_while(|(.., assumed)| *assumed) {
-            match machine.evaluate(formula, branches) {
+        for check in settings.checks_of_steps().take_while(|check| check.assumed) {
+            match machine.evaluate(check.formula, branches) {
                 Ok(Value::Boolean(true)) => {}
                 Ok(_) => {
                     attempt.kind = AlternativeKind::Excluded;
@@ -387,13 +387,14 @@ impl Explorer {
         if let Some(fault) = unclear {
             return Err(fault);
         }
-        for (index, formula, _) in settings.checks_of_steps().skip_while(|(.., assumed)| *assumed) {
-            match machine.evaluate(formula, branches) {
-                Ok(Value::Boolean(true)) => {}
-                // What cannot be evaluated is not true. The step is made all the same.
+        for check in settings.checks_of_steps().skip_while(|check| check.assumed) {
+            // What cannot be evaluated is not true. The step is made all the same.
+            let truth = match machine.evaluate(check.formula, branches) {
+                Ok(Value::Boolean(truth)) => Some(truth),
                 Err(fault) if !fault.kind.is_of_the_model() => return Err(fault),
-                Ok(_) | Err(_) => attempt.failed.push(index),
-            }
+                Ok(_) | Err(_) => None,
+            };
+            note_failures(truth, (check.index, check.negation), &mut attempt.failed);
         }
         read(&mut Reading { machine, branches })
     }

@@ -28,9 +28,9 @@ impl Explorer {
         let mut told = Told::default();
         let prepared = self.machine.prepare(&mut self.branches);
         // Conditions may ask for more inputs; of a step that has a fault only assumptions are evaluated.
-        for (_, formula, assumed) in self.settings.checks_of_steps() {
-            if assumed || prepared.is_ok() {
-                let _ = self.machine.evaluate(formula, &mut self.branches);
+        for check in self.settings.checks_of_steps() {
+            if check.assumed || prepared.is_ok() {
+                let _ = self.machine.evaluate(check.formula, &mut self.branches);
             }
         }
         if prepared.is_ok() {

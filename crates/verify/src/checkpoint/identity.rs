@@ -42,6 +42,7 @@ pub fn question(program: &Program, plan: &Plan) -> u64 {
         bounds,
         conditions,
         step_conditions,
+        in_pairs_from,
         read_in_steps,
         forgetful: _,
         engine: _,
@@ -54,7 +55,8 @@ pub fn question(program: &Program, plan: &Plan) -> u64 {
     hash(&[
         &(domains, functions, constants, terms, term_lists, rules, rule_lists, binder_lists),
         &(function_lists, procedures, main, initials, agents, properties),
-        &(limits, bounds, conditions, step_conditions, read_in_steps, numbered, observed, unordered),
+        &(limits, bounds, conditions, step_conditions, in_pairs_from, read_in_steps),
+        &(numbered, observed, unordered),
         &(assumed, terminal, wanted, wanted_steps, storage, seed, partial_order),
     ])
 }

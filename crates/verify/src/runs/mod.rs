@@ -252,6 +252,7 @@ fn source(program: &Arc<Program>, plan: &RunPlan, properties: &Properties) -> (S
             close::truth(&mut extended, proposition)
         });
         if extended.reads_monitored(&expression) {
+            settings.in_pairs_from.get_or_insert(settings.step_conditions.len());
             places.push(Place::Step(settings.step_conditions.len()));
             let given = |function: &FunctionId| {
                 matches!(extended.function(*function).kind, FunctionKind::Monitored | FunctionKind::Shared)
