@@ -97,9 +97,10 @@ impl Translator<'_, '_> {
         self.switch(fast);
         let known = self.is_any(builtin, &members, Scalar { flag: None, ..element });
         self.leave(&mut merge, known, done);
-        // An undefined element is the library's business.
+        // An undefined element is the library's business. Nothing is evaluated twice: a member may be chosen.
         self.switch(slow);
-        let told = self.applied(id, arguments);
+        let written = self.apply(set, &members);
+        let told = self.apply(id, &[written, Operand::Scalar(element)]);
         self.leave(&mut merge, told, done);
         self.switch(done);
         self.merged(&merge)

@@ -1,8 +1,9 @@
 //! The library functions, by the values of terms.
 
 use expect_test::expect;
+use machine::EngineChoice;
 
-use crate::run;
+use crate::{Counting, machine_of, run};
 
 /// The value of a term of a domain.
 #[track_caller]
@@ -50,4 +51,25 @@ fn sets_sequences_bags_maps() {
     value("Seq(Real)", "[0.0 : 0.3, 0.1]", expect!["[0.0,0.1,0.2,0.3]"]);
     value("Boolean", "(exists unique $x in {1:9} with $x * $x = 49)", expect!["true"]);
     value("Integer", "second((1, 2, 3))", expect!["2"]);
+}
+
+/// Where compiled code leaves an undefined element to the library, it has evaluated the written set already.
+#[test]
+fn an_element_is_chosen_once() {
+    let text =
+        "signature: domain Few subsetof Integer controlled n: Integer controlled b: Boolean controlled r: Integer
+        definitions: domain Few = {1 : 3}
+        main rule r_Main = par r := n b := contains({chooseone(Few), 7}, n) endpar
+        default init s0: function b = false";
+    for engine in [EngineChoice::Interpreted, EngineChoice::Compiled] {
+        let mut machine = machine_of(text);
+        machine.use_engine(engine);
+        let mut environment = Counting::default();
+        machine.start(&mut environment).expect("a start");
+        for step in 1..4 {
+            // Whether it can be made is the library's business.
+            let _ = machine.step(&mut environment);
+            assert_eq!(environment.chosen, step, "{engine:?}");
+        }
+    }
 }

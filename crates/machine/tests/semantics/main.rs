@@ -19,6 +19,7 @@ use testkit::NoFiles;
 #[derive(Default)]
 struct Counting {
     asked: i64,
+    chosen: u64,
 }
 
 impl Environment for Counting {
@@ -31,6 +32,7 @@ impl Environment for Counting {
     }
 
     fn choose(&mut self, _: &Program, choice: &Choice<'_>) -> Result<usize, String> {
+        self.chosen += 1;
         Ok(choice.candidates() - 1)
     }
 

@@ -309,10 +309,10 @@ fn going_back_is_as_if_nothing_had_been_done() {
     let seen = run(&mut machine, 6000, &mut environment);
     machine.go_back(&second);
     assert_eq!((machine.steps(), machine.locations()), before);
-    assert!(run(&mut machine, 6000, &mut Counting { asked }) == seen, "the same run again");
+    assert!(run(&mut machine, 6000, &mut Counting { asked, ..Counting::default() }) == seen, "the same run again");
     machine.go_back(&first);
     assert_eq!(machine.steps(), 10);
-    run(&mut machine, 600, &mut Counting { asked: asked - 600 });
+    run(&mut machine, 600, &mut Counting { asked: asked - 600, ..Counting::default() });
     assert_eq!((machine.steps(), machine.locations()), before);
     let third = machine.mark();
     machine.forget_before(&third);
