@@ -332,7 +332,7 @@ fn found_as_soon(cases: std::ops::Range<u64>, depth: u64, seeks: Seeks<'_>) {
         ("same n; allow waiting; input abstract.go = not concrete.go;", |go, _| !go),
         ("same n; input abstract.go = (concrete.go or concrete.n = 1);", |go, (n, _)| go || n == 1),
     ];
-    let mut counts = [0; 2];
+    let (mut counts, mut silent) = ([0; 2], 0);
     for seed in cases.clone() {
         let mut random = Random(seed * 15_485_863 + 11);
         let abstractly = rule(&mut random);
@@ -346,13 +346,19 @@ fn found_as_soon(cases: std::ops::Range<u64>, depth: u64, seeks: Seeks<'_>) {
             continue;
         }
         let runs = report.runs.as_ref().expect("runs");
+        // Where there are too many values to try, it says how far it came; that far nothing is missed.
+        if let (Some(Left::Silent(..)), None) = (&runs.left, &runs.found) {
+            assert!(expected.is_none_or(|steps| steps > runs.depth), "{}", of());
+            silent += 1;
+            continue;
+        }
         assert_eq!(runs.found.as_ref().map(|(steps, _)| *steps), expected, "{}", of());
         assert_eq!(matches!(report.verdict, Verdict::DoesNot(_)), expected.is_some(), "{}", of());
         assert_eq!(runs.left, None, "{}", of());
         counts[usize::from(expected.is_some())] += 1;
     }
     let all = cases.count();
-    assert!(counts[0] * 5 > all && counts[1] * 5 > all, "{counts:?}");
+    assert!(counts[0] * 5 > all && counts[1] * 5 > all && silent * 100 <= all, "{counts:?}, {silent} silent");
 }
 
 /// What it refutes the search refutes, whatever diagrams are.
