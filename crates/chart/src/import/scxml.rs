@@ -271,6 +271,8 @@ impl<'d, 'f> Reader<'d, 'f> {
             self.faults.push(fault::left_out(place(self.file, content), "the content of `initial`", help));
         }
         let first = match said {
+            // That a state begins in a `history` is told where histories are read.
+            Some(ids) if parent.is_some() && self.states.is_history(ids) => None,
             Some(ids) => {
                 let found = self.states.begins(ids.split_whitespace().next().unwrap_or_default(), parent);
                 found.map_err(|fault| self.faults.push(fault(place(self.file, node)))).ok()
