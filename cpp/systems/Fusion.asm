@@ -49,10 +49,10 @@ signature:
 	static motor_read_set: SchedulePhase
 	static motor_turn: SchedulePhase
 	static motor_wait: SchedulePhase
-	static bound1_hop1: Hop
-	static bound1_hop2: Hop
-	static bound1_hop3: Hop
-	static bound1_way1: Way
+	static bound1_hop1: AgeHop
+	static bound1_hop2: AgeHop
+	static bound1_hop3: AgeHop
+	static bound1_way1: AgeWay
 
 definitions:
 	// what each task does when it is its turn
@@ -269,40 +269,40 @@ default init s0:
 			otherwise undef
 		endswitch
 	function elaborationRule($p in SchedulePhase) = undef
-	function hop_before($h in Hop) =
+	function hop_before($h in AgeHop) =
 		switch $h
 			case bound1_hop2: bound1_hop1
 			case bound1_hop3: bound1_hop2
 			otherwise undef
 		endswitch
-	function hop_writer($h in Hop) =
+	function hop_writer($h in AgeHop) =
 		switch $h
 			case bound1_hop1: camera
 			case bound1_hop2: fuse
 			otherwise guide
 		endswitch
-	function hop_decided($h in Hop) =
+	function hop_decided($h in AgeHop) =
 		switch $h
 			case bound1_hop1: camera_look
 			case bound1_hop2: fuse_match
 			otherwise guide_plan
 		endswitch
-	function hop_buffer($h in Hop) =
+	function hop_buffer($h in AgeHop) =
 		switch $h
 			case bound1_hop1: frames
 			case bound1_hop3: set
 			otherwise undef
 		endswitch
-	function hop_queue($h in Hop) =
+	function hop_queue($h in AgeHop) =
 		switch $h
 			case bound1_hop2: fixes
 			otherwise undef
 		endswitch
-	function hop_value($h in Hop) = undef
-	function way_hop($w in Way) = bound1_hop3
-	function way_end($w in Way) = motor
-	function way_decided($w in Way) = motor_turn
-	function way_limit($w in Way) = 120
+	function hop_value($h in AgeHop) = undef
+	function way_hop($w in AgeWay) = bound1_hop3
+	function way_end($w in AgeWay) = motor
+	function way_decided($w in AgeWay) = motor_turn
+	function way_limit($w in AgeWay) = 120
 	function phaseBefore($c in Scheduler) =
 		switch $c
 			case camera: camera_wait
@@ -312,8 +312,8 @@ default init s0:
 			case guide: guide_wait
 			otherwise motor_wait
 		endswitch
-	function hop_written($h in Hop) = 0
-	function hop_read($h in Hop) = 0
-	function way_oldest($w in Way) = 0
-	function way_tooOld($w in Way) = 0
+	function hop_written($h in AgeHop) = 0
+	function hop_read($h in AgeHop) = 0
+	function way_oldest($w in AgeWay) = 0
+	function way_tooOld($w in AgeWay) = 0
 	agent Scheduler: r_varyingTask[]

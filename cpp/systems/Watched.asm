@@ -37,14 +37,14 @@ signature:
 	static motor_read_set: SchedulePhase
 	static motor_turn: SchedulePhase
 	static motor_wait: SchedulePhase
-	static bound1_hop1: Hop
-	static bound1_hop2: Hop
-	static bound1_hop3: Hop
-	static bound2_hop1: Hop
-	static bound1_way1: Way
-	static bound2_way1: Way
-	static control_read_marks_fresh: Reading
-	static motor_read_set_fresh: Reading
+	static bound1_hop1: AgeHop
+	static bound1_hop2: AgeHop
+	static bound1_hop3: AgeHop
+	static bound2_hop1: AgeHop
+	static bound1_way1: AgeWay
+	static bound2_way1: AgeWay
+	static control_read_marks_fresh: FreshReading
+	static motor_read_set_fresh: FreshReading
 
 definitions:
 	// what each task does when it is its turn
@@ -238,48 +238,48 @@ default init s0:
 			otherwise undef
 		endswitch
 	function elaborationRule($p in SchedulePhase) = undef
-	function hop_before($h in Hop) =
+	function hop_before($h in AgeHop) =
 		switch $h
 			case bound1_hop2: bound1_hop1
 			case bound1_hop3: bound1_hop2
 			otherwise undef
 		endswitch
-	function hop_writer($h in Hop) =
+	function hop_writer($h in AgeHop) =
 		switch $h
 			case bound1_hop1: camera
 			case bound1_hop2: vision
 			otherwise control
 		endswitch
-	function hop_decided($h in Hop) =
+	function hop_decided($h in AgeHop) =
 		switch $h
 			case bound1_hop1: camera_look
 			case bound1_hop2: vision_find
 			otherwise control_law
 		endswitch
-	function hop_buffer($h in Hop) =
+	function hop_buffer($h in AgeHop) =
 		switch $h
 			case bound1_hop1: frames
 			otherwise undef
 		endswitch
-	function hop_queue($h in Hop) =
+	function hop_queue($h in AgeHop) =
 		switch $h
 			case bound1_hop2: marks
 			otherwise undef
 		endswitch
-	function hop_value($h in Hop) =
+	function hop_value($h in AgeHop) =
 		switch $h
 			case bound1_hop3: set
 			case bound2_hop1: set
 			otherwise undef
 		endswitch
-	function way_hop($w in Way) =
+	function way_hop($w in AgeWay) =
 		switch $w
 			case bound1_way1: bound1_hop3
 			otherwise bound2_hop1
 		endswitch
-	function way_end($w in Way) = motor
-	function way_decided($w in Way) = motor_turn
-	function way_limit($w in Way) =
+	function way_end($w in AgeWay) = motor
+	function way_decided($w in AgeWay) = motor_turn
+	function way_limit($w in AgeWay) =
 		switch $w
 			case bound1_way1: 120
 			otherwise 16
@@ -291,10 +291,10 @@ default init s0:
 			case control: control_wait
 			otherwise motor_wait
 		endswitch
-	function hop_written($h in Hop) = 0
-	function hop_read($h in Hop) = 0
-	function way_oldest($w in Way) = 0
-	function way_tooOld($w in Way) = 0
+	function hop_written($h in AgeHop) = 0
+	function hop_read($h in AgeHop) = 0
+	function way_oldest($w in AgeWay) = 0
+	function way_tooOld($w in AgeWay) = 0
 	function mayBeLate($t in Task) =
 		switch $t
 			case control_task: true
@@ -313,22 +313,22 @@ default init s0:
 	function task_lateCycles($t in Task) = {}
 	function task_mostMissed($t in Task) = 0
 	function task_tooManyMissed($t in Task) = 0
-	function reading_buffer($r in Reading) = undef
-	function reading_queue($r in Reading) =
+	function reading_buffer($r in FreshReading) = undef
+	function reading_queue($r in FreshReading) =
 		switch $r
 			case control_read_marks_fresh: marks
 			otherwise undef
 		endswitch
-	function reading_value($r in Reading) =
+	function reading_value($r in FreshReading) =
 		switch $r
 			case motor_read_set_fresh: set
 			otherwise undef
 		endswitch
-	function reading_limit($r in Reading) =
+	function reading_limit($r in FreshReading) =
 		switch $r
 			case control_read_marks_fresh: 56
 			otherwise 16
 		endswitch
-	function reading_longest($r in Reading) = 0
-	function reading_starved($r in Reading) = 0
+	function reading_longest($r in FreshReading) = 0
+	function reading_starved($r in FreshReading) = 0
 	agent Scheduler: r_varyingTask[]

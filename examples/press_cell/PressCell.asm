@@ -31,9 +31,9 @@ signature:
 	static drive_read_command: SchedulePhase
 	static drive_move: SchedulePhase
 	static drive_wait: SchedulePhase
-	static bound1_hop1: Hop
-	static bound1_hop2: Hop
-	static bound1_way1: Way
+	static bound1_hop1: AgeHop
+	static bound1_hop2: AgeHop
+	static bound1_way1: AgeWay
 	// what the data of position say, by their numbers
 	controlled position_value: Integer -> Position
 	// what the data of command say, by their numbers
@@ -308,42 +308,42 @@ default init s0:
 			otherwise undef
 		endswitch
 	function elaborationRule($p in SchedulePhase) = undef
-	function hop_before($h in Hop) =
+	function hop_before($h in AgeHop) =
 		switch $h
 			case bound1_hop2: bound1_hop1
 			otherwise undef
 		endswitch
-	function hop_writer($h in Hop) =
+	function hop_writer($h in AgeHop) =
 		switch $h
 			case bound1_hop1: gauge
 			otherwise controller
 		endswitch
-	function hop_decided($h in Hop) =
+	function hop_decided($h in AgeHop) =
 		switch $h
 			case bound1_hop1: gauge_sense
 			otherwise controller_decide
 		endswitch
-	function hop_buffer($h in Hop) =
+	function hop_buffer($h in AgeHop) =
 		switch $h
 			case bound1_hop1: position
 			otherwise command
 		endswitch
-	function hop_queue($h in Hop) = undef
-	function hop_value($h in Hop) = undef
-	function way_hop($w in Way) = bound1_hop2
-	function way_end($w in Way) = drive
-	function way_decided($w in Way) = drive_move
-	function way_limit($w in Way) = 36
+	function hop_queue($h in AgeHop) = undef
+	function hop_value($h in AgeHop) = undef
+	function way_hop($w in AgeWay) = bound1_hop2
+	function way_end($w in AgeWay) = drive
+	function way_decided($w in AgeWay) = drive_move
+	function way_limit($w in AgeWay) = 36
 	function phaseBefore($c in Scheduler) =
 		switch $c
 			case gauge: gauge_wait
 			case controller: controller_wait
 			otherwise drive_wait
 		endswitch
-	function hop_written($h in Hop) = 0
-	function hop_read($h in Hop) = 0
-	function way_oldest($w in Way) = 0
-	function way_tooOld($w in Way) = 0
+	function hop_written($h in AgeHop) = 0
+	function hop_read($h in AgeHop) = 0
+	function way_oldest($w in AgeWay) = 0
+	function way_tooOld($w in AgeWay) = 0
 	function gauge_position = BETWEEN
 	function controller_mode = CONTROLLER_IDLE
 	function lamp = false

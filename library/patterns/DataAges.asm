@@ -18,51 +18,51 @@ export *
 
 signature:
 	// a channel as a part of a way; ways that begin alike share it
-	abstract domain Hop
-	abstract domain Way
+	abstract domain AgeHop
+	abstract domain AgeWay
 
 	// Configuration
 	// undef: a way begins in the writer's cycle
-	controlled hop_before: Hop -> Hop
-	controlled hop_writer: Hop -> Scheduler
+	controlled hop_before: AgeHop -> AgeHop
+	controlled hop_writer: AgeHop -> Scheduler
 	// the elaboration in which the writer decides what it writes; undef: there is none
-	controlled hop_decided: Hop -> SchedulePhase
+	controlled hop_decided: AgeHop -> SchedulePhase
 	// the channel: one of them
-	controlled hop_buffer: Hop -> SwingingBuffer
-	controlled hop_queue: Hop -> MessageQueue
-	controlled hop_value: Hop -> SharedValue
+	controlled hop_buffer: AgeHop -> SwingingBuffer
+	controlled hop_queue: AgeHop -> MessageQueue
+	controlled hop_value: AgeHop -> SharedValue
 	// undef: the way has no channel, its component has both ends
-	controlled way_hop: Way -> Hop
-	controlled way_end: Way -> Scheduler
-	controlled way_decided: Way -> SchedulePhase
+	controlled way_hop: AgeWay -> AgeHop
+	controlled way_end: AgeWay -> Scheduler
+	controlled way_decided: AgeWay -> SchedulePhase
 	// the age that is allowed
-	controlled way_limit: Way -> Integer
+	controlled way_limit: AgeWay -> Integer
 
 	// When the data came that are on their way
 	controlled cycleStart: Scheduler -> Integer
-	controlled hop_taken: Hop -> Integer
-	controlled hop_slot: Prod(Hop, QueueSlot) -> Integer
-	controlled hop_received: Hop -> Integer
-	controlled way_taken: Way -> Integer
+	controlled hop_taken: AgeHop -> Integer
+	controlled hop_slot: Prod(AgeHop, QueueSlot) -> Integer
+	controlled hop_received: AgeHop -> Integer
+	controlled way_taken: AgeWay -> Integer
 
 	// As it was after the step before
 	controlled phaseBefore: Scheduler -> SchedulePhase
-	controlled hop_written: Hop -> Integer
-	controlled hop_read: Hop -> Integer
+	controlled hop_written: AgeHop -> Integer
+	controlled hop_read: AgeHop -> Integer
 
 	// What came of it
-	controlled way_oldest: Way -> Integer
-	controlled way_tooOld: Way -> Integer
+	controlled way_oldest: AgeWay -> Integer
+	controlled way_tooOld: AgeWay -> Integer
 
 	derived hasLeft: Prod(Scheduler, SchedulePhase) -> Boolean
 	derived hasEnded: Scheduler -> Boolean
 	derived hasBegun: Scheduler -> Boolean
-	derived numberWritten: Hop -> Integer
-	derived numberRead: Hop -> Integer
-	derived slotWritten: Hop -> Integer
-	derived slotRead: Hop -> Integer
-	derived origin: Hop -> Integer
-	derived wayOrigin: Way -> Integer
+	derived numberWritten: AgeHop -> Integer
+	derived numberRead: AgeHop -> Integer
+	derived slotWritten: AgeHop -> Integer
+	derived slotRead: AgeHop -> Integer
+	derived origin: AgeHop -> Integer
+	derived wayOrigin: AgeWay -> Integer
 
 definitions:
 	function hasLeft($c in Scheduler, $p in SchedulePhase) =
@@ -78,28 +78,28 @@ definitions:
 		and (exists $p in SchedulePhase with
 			action($p) = WAITING_TRIGGER and nextPhase($p) = scheduler_currentPhase($c))
 
-	function numberWritten($h in Hop) =
+	function numberWritten($h in AgeHop) =
 		if isDef(hop_buffer($h)) then
 			sb_written(hop_buffer($h))
 		else
 			if isDef(hop_queue($h)) then mq_sent(hop_queue($h)) else sv_sequence(hop_value($h)) endif
 		endif
 
-	function numberRead($h in Hop) =
+	function numberRead($h in AgeHop) =
 		if isDef(hop_buffer($h)) then
 			sb_receivedSequence(hop_buffer($h))
 		else
 			if isDef(hop_queue($h)) then mq_taken(hop_queue($h)) else sv_receivedSequence(hop_value($h)) endif
 		endif
 
-	function slotWritten($h in Hop) =
+	function slotWritten($h in AgeHop) =
 		if isDef(hop_buffer($h)) then
 			sb_writingArray(hop_buffer($h))
 		else
 			if isDef(hop_queue($h)) then (mq_sent(hop_queue($h)) - 1) mod mq_capacity(hop_queue($h)) else 0 endif
 		endif
 
-	function slotRead($h in Hop) =
+	function slotRead($h in AgeHop) =
 		if isDef(hop_buffer($h)) then
 			sb_readingArray(hop_buffer($h))
 		else
@@ -107,20 +107,20 @@ definitions:
 		endif
 
 	// When that came which the writer of a hop has at hand.
-	function origin($h in Hop) =
+	function origin($h in AgeHop) =
 		if isDef(hop_before($h)) then hop_received(hop_before($h)) else cycleStart(hop_writer($h)) endif
 
-	function wayOrigin($w in Way) =
+	function wayOrigin($w in AgeWay) =
 		if isDef(way_hop($w)) then hop_received(way_hop($w)) else cycleStart(way_end($w)) endif
 
 	// What is decided rests on what was read before.
 	rule r_take =
 		par
-			forall $h in Hop with isDef(hop_decided($h)) do
+			forall $h in AgeHop with isDef(hop_decided($h)) do
 				if hasLeft(hop_writer($h), hop_decided($h)) then
 					hop_taken($h) := origin($h)
 				endif
-			forall $w in Way with true do
+			forall $w in AgeWay with true do
 				if isDef(way_decided($w)) then
 					if hasLeft(way_end($w), way_decided($w)) then
 						way_taken($w) := wayOrigin($w)
@@ -131,7 +131,7 @@ definitions:
 		endpar
 
 	rule r_arrive =
-		forall $w in Way with hasEnded(way_end($w)) do
+		forall $w in AgeWay with hasEnded(way_end($w)) do
 			if isDef(way_taken($w)) then
 				let ($age = clock - way_taken($w)) in
 					par
@@ -144,7 +144,7 @@ definitions:
 				endlet
 			endif
 
-	rule r_pass($h in Hop) =
+	rule r_pass($h in AgeHop) =
 		par
 			hop_slot($h, slotWritten($h)) := if isDef(hop_decided($h)) then hop_taken($h) else origin($h) endif
 			hop_taken($h) := undef
@@ -156,20 +156,20 @@ definitions:
 		par
 			forall $c in Scheduler with hasBegun($c) do
 				cycleStart($c) := clock
-			forall $h in Hop with numberRead($h) != hop_read($h) do
+			forall $h in AgeHop with numberRead($h) != hop_read($h) do
 				hop_received($h) := hop_slot($h, slotRead($h))
-			forall $g in Hop with isUndef(hop_buffer($g)) and numberWritten($g) != hop_written($g) do r_pass[$g]
+			forall $g in AgeHop with isUndef(hop_buffer($g)) and numberWritten($g) != hop_written($g) do r_pass[$g]
 		endpar
 
 	// A buffer is written when a phase begins, which may be the first one of a cycle.
 	rule r_passBuffers =
-		forall $h in Hop with isDef(hop_buffer($h)) and numberWritten($h) != hop_written($h) do r_pass[$h]
+		forall $h in AgeHop with isDef(hop_buffer($h)) and numberWritten($h) != hop_written($h) do r_pass[$h]
 
 	rule r_rememberAges =
 		par
 			forall $c in Scheduler with true do
 				phaseBefore($c) := scheduler_currentPhase($c)
-			forall $h in Hop with true do
+			forall $h in AgeHop with true do
 				par
 					hop_written($h) := numberWritten($h)
 					hop_read($h) := numberRead($h)

@@ -14,29 +14,29 @@ import SharedValue
 export *
 
 signature:
-	abstract domain Reading
+	abstract domain FreshReading
 
 	// Configuration: what is read, one of them, and the longest time until something new comes
-	controlled reading_buffer: Reading -> SwingingBuffer
-	controlled reading_queue: Reading -> MessageQueue
-	controlled reading_value: Reading -> SharedValue
-	controlled reading_limit: Reading -> Integer
+	controlled reading_buffer: FreshReading -> SwingingBuffer
+	controlled reading_queue: FreshReading -> MessageQueue
+	controlled reading_value: FreshReading -> SharedValue
+	controlled reading_limit: FreshReading -> Integer
 
 	// ticks since something new came; undef before the first
-	controlled reading_since: Reading -> Integer
+	controlled reading_since: FreshReading -> Integer
 
 	// As it was before the step; undef between two steps
-	controlled reading_before: Reading -> Integer
+	controlled reading_before: FreshReading -> Integer
 
 	// What came of it: the longest time, and how often it was too long
-	controlled reading_longest: Reading -> Integer
-	controlled reading_starved: Reading -> Integer
+	controlled reading_longest: FreshReading -> Integer
+	controlled reading_starved: FreshReading -> Integer
 
-	derived reading_number: Reading -> Integer
-	derived isNewRead: Reading -> Boolean
+	derived reading_number: FreshReading -> Integer
+	derived isNewRead: FreshReading -> Boolean
 
 definitions:
-	function reading_number($r in Reading) =
+	function reading_number($r in FreshReading) =
 		if isDef(reading_buffer($r)) then
 			sb_receivedSequence(reading_buffer($r))
 		else
@@ -47,15 +47,15 @@ definitions:
 			endif
 		endif
 
-	function isNewRead($r in Reading) =
+	function isNewRead($r in FreshReading) =
 		reading_number($r) != reading_before($r)
 
 	rule r_beforeReadings =
-		forall $r in Reading with true do
+		forall $r in FreshReading with true do
 			reading_before($r) := reading_number($r)
 
 	// Too long is counted once, when it becomes so.
-	rule r_wait($r in Reading) =
+	rule r_wait($r in FreshReading) =
 		let ($since = reading_since($r) + 1) in
 			par
 				reading_longest($r) := max(reading_longest($r), $since)
@@ -68,7 +68,7 @@ definitions:
 
 	// What a step of the tasks adds.
 	rule r_countReadings =
-		forall $r in Reading with true do
+		forall $r in FreshReading with true do
 			par
 				if isDef(reading_since($r)) then
 					r_wait[$r]

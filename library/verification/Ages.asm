@@ -158,24 +158,24 @@ default init s0:
 		endif
 	function elaborationRule($p in SchedulePhase) = undef
 
-	function hop_before($h in Hop) = if $h = to_sink then to_relay else undef endif
-	function hop_writer($h in Hop) = if $h = to_sink then relay else source endif
-	function hop_decided($h in Hop) =
+	function hop_before($h in AgeHop) = if $h = to_sink then to_relay else undef endif
+	function hop_writer($h in AgeHop) = if $h = to_sink then relay else source endif
+	function hop_decided($h in AgeHop) =
 		if isDecided then (if $h = to_sink then relay_work else source_work endif) else undef endif
-	function hop_buffer($h in Hop) = if $h = to_relay and channel = BUFFER then buffer else undef endif
-	function hop_queue($h in Hop) = if $h = to_relay and channel = QUEUE then queue else undef endif
-	function hop_value($h in Hop) =
+	function hop_buffer($h in AgeHop) = if $h = to_relay and channel = BUFFER then buffer else undef endif
+	function hop_queue($h in AgeHop) = if $h = to_relay and channel = QUEUE then queue else undef endif
+	function hop_value($h in AgeHop) =
 		if $h = to_sink then outcome else if channel = VALUE then cell else undef endif endif
-	function way_hop($w in Way) = if $w = through then to_sink else undef endif
-	function way_end($w in Way) = if $w = through then sink else source endif
-	function way_decided($w in Way) =
+	function way_hop($w in AgeWay) = if $w = through then to_sink else undef endif
+	function way_end($w in AgeWay) = if $w = through then sink else source endif
+	function way_decided($w in AgeWay) =
 		if isDecided then (if $w = through then sink_work else source_work endif) else undef endif
-	function way_limit($w in Way) = if $w = through then 9 else 3 endif
-	function way_oldest($w in Way) = 0
-	function way_tooOld($w in Way) = 0
+	function way_limit($w in AgeWay) = if $w = through then 9 else 3 endif
+	function way_oldest($w in AgeWay) = 0
+	function way_tooOld($w in AgeWay) = 0
 	function phaseBefore($c in Scheduler) = scheduler_currentPhase($c)
-	function hop_written($h in Hop) = 0
-	function hop_read($h in Hop) = 0
+	function hop_written($h in AgeHop) = 0
+	function hop_read($h in AgeHop) = 0
 	function tooOld = 40
 
 	function inQueue = []
@@ -185,6 +185,6 @@ default init s0:
 	function before_written($b in SwingingBuffer) = 0
 	function before_phase($c in Scheduler) = scheduler_currentPhase($c)
 	function lostSilently($v in SharedValue) = false
-	function isAgeRight($w in Way) = true
+	function isAgeRight($w in AgeWay) = true
 	function isRemembered = true
 	function wasTooOld = false

@@ -20,13 +20,13 @@ signature:
 
 definitions:
 	function isSource($c in Scheduler) =
-		(exists $h in Hop with hop_writer($h) = $c and isUndef(hop_before($h)))
-		or (exists $w in Way with way_end($w) = $c and isUndef(way_hop($w)))
+		(exists $h in AgeHop with hop_writer($h) = $c and isUndef(hop_before($h)))
+		or (exists $w in AgeWay with way_end($w) = $c and isUndef(way_hop($w)))
 
 	function since($tick in Integer) =
 		if isDef($tick) then max($tick - clock, -tooOld) else undef endif
 
-	rule r_shiftBuffer($h in Hop, $b in SwingingBuffer) =
+	rule r_shiftBuffer($h in AgeHop, $b in SwingingBuffer) =
 		let ($first = indexWrite($b), $arrays = dimension($b)) in
 			forall $n in {0 : $arrays - 1} with true do
 				let ($m = ($n + $first) mod $arrays) in
@@ -34,14 +34,14 @@ definitions:
 				endlet
 		endlet
 
-	rule r_shiftQueue($h in Hop, $q in MessageQueue) =
+	rule r_shiftQueue($h in AgeHop, $q in MessageQueue) =
 		let ($taken = mq_taken($q), $length = mq_length($q)) in
 			forall $n in {0 : mq_capacity($q) - 1} with true do
 				hop_slot($h, $n) :=
 					if $n < $length then since(hop_slot($h, ($taken + $n) mod mq_capacity($q))) else undef endif
 		endlet
 
-	rule r_shiftHop($h in Hop) =
+	rule r_shiftHop($h in AgeHop) =
 		par
 			hop_taken($h) := since(hop_taken($h))
 			hop_received($h) := since(hop_received($h))
@@ -60,8 +60,8 @@ definitions:
 		par
 			forall $c in Scheduler with true do
 				cycleStart($c) := if isSource($c) then since(cycleStart($c)) else undef endif
-			forall $h in Hop with true do r_shiftHop[$h]
-			forall $w in Way with true do
+			forall $h in AgeHop with true do r_shiftHop[$h]
+			forall $w in AgeWay with true do
 				par
 					way_taken($w) := since(way_taken($w))
 					way_oldest($w) := 0

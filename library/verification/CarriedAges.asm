@@ -40,11 +40,11 @@ signature:
 	static sink_work: SchedulePhase
 	static sink_wait: SchedulePhase
 
-	static to_relay: Hop
-	static to_sink: Hop
+	static to_relay: AgeHop
+	static to_sink: AgeHop
 	// from the source to the sink, and through the source alone
-	static through: Way
-	static alone: Way
+	static through: AgeWay
+	static alone: AgeWay
 
 	// asked for in the initial state
 	monitored channel: Channel
@@ -62,7 +62,7 @@ signature:
 	// as it was before the step
 	controlled wasAt: Scheduler -> SchedulePhase
 
-	controlled isAgeRight: Way -> Boolean
+	controlled isAgeRight: AgeWay -> Boolean
 	controlled isRemembered: Boolean
 	controlled wasTooOld: Boolean
 
@@ -70,7 +70,7 @@ signature:
 	derived hasGone: SchedulePhase -> Boolean
 	derived isDone: Scheduler -> Boolean
 	derived lastPhase: Scheduler -> SchedulePhase
-	derived isAged: Prod(Way, Scheduler, Integer) -> Boolean
+	derived isAged: Prod(AgeWay, Scheduler, Integer) -> Boolean
 
 definitions:
 	// ticks of a cycle that waits for no lock
@@ -100,7 +100,7 @@ definitions:
 		hasGone(lastPhase($c))
 
 	// A cycle that ends, and has data, has their age; it is counted if it is too old.
-	function isAged($w in Way, $c in Scheduler, $from in Integer) =
+	function isAged($w in AgeWay, $c in Scheduler, $from in Integer) =
 		if isDone($c) and isDef($from) then
 			way_oldest($w) = max(clock - $from, 1)
 			and way_tooOld($w) = (if clock - $from > way_limit($w) then 11 else 10 endif)
@@ -117,7 +117,7 @@ definitions:
 			forall $c in Scheduler with true do
 				wasAt($c) := scheduler_currentPhase($c)
 			// each begins with another number, so that none is taken for another
-			forall $w in Way with true do
+			forall $w in AgeWay with true do
 				par
 					way_oldest($w) := 1
 					way_tooOld($w) := 10
@@ -159,7 +159,7 @@ definitions:
 		par
 			isRemembered :=
 				(forall $c in Scheduler with phaseBefore($c) = scheduler_currentPhase($c))
-				and (forall $h in Hop with hop_written($h) = numberWritten($h) and hop_read($h) = numberRead($h))
+				and (forall $h in AgeHop with hop_written($h) = numberWritten($h) and hop_read($h) = numberRead($h))
 			wasTooOld := way_tooOld(alone) = 11
 			isAgeRight(alone) := isAged(alone, source, began)
 			isAgeRight(through) :=
@@ -210,7 +210,7 @@ definitions:
 			endif
 		endpar
 
-	invariant inv_ages over way_oldest, way_tooOld: (forall $w in Way with isAgeRight($w))
+	invariant inv_ages over way_oldest, way_tooOld: (forall $w in AgeWay with isAgeRight($w))
 	// between two steps it is known how all was
 	invariant inv_remembered over phaseBefore, hop_written, hop_read: isRemembered
 

@@ -13,7 +13,7 @@ signature:
 	enum domain Channel = {BUFFER | QUEUE | VALUE}
 	domain Limit subsetof Integer
 
-	static reading: Reading
+	static reading: FreshReading
 	static buffer: SwingingBuffer
 	static queue: MessageQueue
 	static cell: SharedValue
@@ -96,12 +96,12 @@ definitions:
 		endseq
 
 default init s0:
-	function reading_buffer($r in Reading) = if channel = BUFFER then buffer else undef endif
-	function reading_queue($r in Reading) = if channel = QUEUE then queue else undef endif
-	function reading_value($r in Reading) = if channel = VALUE then cell else undef endif
-	function reading_limit($r in Reading) = limit
-	function reading_longest($r in Reading) = 1
-	function reading_starved($r in Reading) = 10
+	function reading_buffer($r in FreshReading) = if channel = BUFFER then buffer else undef endif
+	function reading_queue($r in FreshReading) = if channel = QUEUE then queue else undef endif
+	function reading_value($r in FreshReading) = if channel = VALUE then cell else undef endif
+	function reading_limit($r in FreshReading) = limit
+	function reading_longest($r in FreshReading) = 1
+	function reading_starved($r in FreshReading) = 10
 	function sb_receivedSequence($b in SwingingBuffer) = 0
 	function mq_taken($q in MessageQueue) = 0
 	function sv_receivedSequence($v in SharedValue) = 0

@@ -12,7 +12,7 @@ signature:
 
 definitions:
 	rule r_forgetReadings =
-		forall $r in Reading with true do
+		forall $r in FreshReading with true do
 			par
 				reading_longest($r) := 0
 				reading_starved($r) := min(reading_starved($r), 1)
@@ -22,4 +22,4 @@ definitions:
 			endpar
 
 	// the time begins to count: something new comes once at least
-	CTLSPEC ctlSpec_fresh: (forall $r in Reading with af(isDef(reading_since($r))))
+	CTLSPEC ctlSpec_fresh: (forall $r in FreshReading with af(isDef(reading_since($r))))

@@ -58,8 +58,8 @@ impl Ages {
 
     /// The elements, with their domains.
     pub(super) fn elements(&self) -> Vec<(String, &'static str)> {
-        let hops = self.hops.iter().map(|hop| (hop.name.clone(), "Hop"));
-        hops.chain(self.ways.iter().map(|way| (way.name.clone(), "Way"))).collect()
+        let hops = self.hops.iter().map(|hop| (hop.name.clone(), "AgeHop"));
+        hops.chain(self.ways.iter().map(|way| (way.name.clone(), "AgeWay"))).collect()
     }
 
     /// The invariant of each bound: its name and its text.
@@ -90,26 +90,29 @@ impl Ages {
         };
         let hop = |index: Option<usize>| index.map_or("undef".to_string(), |index| self.hops[index].name.clone());
         let writer = |hop: &Hop| system.channels[hop.channel].from;
-        define("hop_before($h in Hop)", &hops(&|one| hop(one.before)));
-        define("hop_writer($h in Hop)", &hops(&|one| system.components[writer(one)].name.clone()));
-        define("hop_decided($h in Hop)", &hops(&|one| phase(writer(one), Some(one.channel))));
-        define("hop_buffer($h in Hop)", &hops(&|one| channel(one, |kind| matches!(kind, ChannelKind::Buffer { .. }))));
-        define("hop_queue($h in Hop)", &hops(&|one| channel(one, |kind| matches!(kind, ChannelKind::Queue { .. }))));
-        define("hop_value($h in Hop)", &hops(&|one| channel(one, |kind| kind == ChannelKind::Shared)));
+        define("hop_before($h in AgeHop)", &hops(&|one| hop(one.before)));
+        define("hop_writer($h in AgeHop)", &hops(&|one| system.components[writer(one)].name.clone()));
+        define("hop_decided($h in AgeHop)", &hops(&|one| phase(writer(one), Some(one.channel))));
+        define(
+            "hop_buffer($h in AgeHop)",
+            &hops(&|one| channel(one, |kind| matches!(kind, ChannelKind::Buffer { .. }))),
+        );
+        define("hop_queue($h in AgeHop)", &hops(&|one| channel(one, |kind| matches!(kind, ChannelKind::Queue { .. }))));
+        define("hop_value($h in AgeHop)", &hops(&|one| channel(one, |kind| kind == ChannelKind::Shared)));
         let ways = |value: &dyn Fn(&Way) -> String| -> String {
             by_case("$w", &self.ways.iter().map(|way| (way.name.clone(), value(way))).collect::<Vec<_>>())
         };
-        define("way_hop($w in Way)", &ways(&|way| hop(way.hop)));
-        define("way_end($w in Way)", &ways(&|way| system.components[way.end].name.clone()));
-        define("way_decided($w in Way)", &ways(&|way| phase(way.end, None)));
-        define("way_limit($w in Way)", &ways(&|way| system.bounds[way.bound].limit.to_string()));
+        define("way_hop($w in AgeWay)", &ways(&|way| hop(way.hop)));
+        define("way_end($w in AgeWay)", &ways(&|way| system.components[way.end].name.clone()));
+        define("way_decided($w in AgeWay)", &ways(&|way| phase(way.end, None)));
+        define("way_limit($w in AgeWay)", &ways(&|way| system.bounds[way.bound].limit.to_string()));
         let begin: Vec<_> = system.components.iter().map(|one| (one.name.clone(), waiting(one))).collect();
         define("phaseBefore($c in Scheduler)", &by_case("$c", &begin));
         for name in ["written", "read"] {
-            define(&format!("hop_{name}($h in Hop)"), "0");
+            define(&format!("hop_{name}($h in AgeHop)"), "0");
         }
         for name in ["oldest", "tooOld"] {
-            define(&format!("way_{name}($w in Way)"), "0");
+            define(&format!("way_{name}($w in AgeWay)"), "0");
         }
     }
 }

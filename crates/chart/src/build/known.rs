@@ -27,10 +27,10 @@ pub(crate) const OWNED: [&str; 10] = [
     "MessageQueue",
     "SharedValue",
     // of the module that follows ages, which only systems with age bounds import
-    "Hop",
-    "Way",
+    "AgeHop",
+    "AgeWay",
     // of the module that follows new readings
-    "Reading",
+    "FreshReading",
 ];
 
 /// Names that exist already.

@@ -80,7 +80,7 @@ pub(super) fn reading(phase: &Phase) -> String {
 
 /// The elements, with their domains.
 pub(super) fn elements(system: &System) -> Vec<(String, &'static str)> {
-    readings(system).map(|(phase, _)| (reading(phase), "Reading")).collect()
+    readings(system).map(|(phase, _)| (reading(phase), "FreshReading")).collect()
 }
 
 /// The invariants of the bounds.
@@ -154,12 +154,12 @@ pub(super) fn define(system: &System, define: &mut impl FnMut(&str, &str)) {
             _ => "undef".to_string(),
         })
     };
-    define("reading_buffer($r in Reading)", &channel(|kind| matches!(kind, ChannelKind::Buffer { .. })));
-    define("reading_queue($r in Reading)", &channel(|kind| matches!(kind, ChannelKind::Queue { .. })));
-    define("reading_value($r in Reading)", &channel(|kind| kind == ChannelKind::Shared));
-    define("reading_limit($r in Reading)", &each(&|_, one| one.limit.to_string()));
+    define("reading_buffer($r in FreshReading)", &channel(|kind| matches!(kind, ChannelKind::Buffer { .. })));
+    define("reading_queue($r in FreshReading)", &channel(|kind| matches!(kind, ChannelKind::Queue { .. })));
+    define("reading_value($r in FreshReading)", &channel(|kind| kind == ChannelKind::Shared));
+    define("reading_limit($r in FreshReading)", &each(&|_, one| one.limit.to_string()));
     for name in ["longest", "starved"] {
-        define(&format!("reading_{name}($r in Reading)"), "0");
+        define(&format!("reading_{name}($r in FreshReading)"), "0");
     }
 }
 

@@ -425,8 +425,9 @@ fn bare(domain: &str) -> &'static str {
         "SharedValue" => "shared value",
         "Semaphore" => "lock",
         "SchedulePhase" => "phase",
-        "Hop" => "hop",
-        "Way" => "way",
+        "AgeHop" => "hop",
+        "AgeWay" => "way",
+        "FreshReading" => "reading",
         _ => "element",
     }
 }
