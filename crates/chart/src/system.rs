@@ -39,6 +39,8 @@ pub struct System {
 /// How old data may be that come from one place to another.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct AgeBound {
+    /// Its number in the chart, the first one 0.
+    pub number: usize,
     /// The greatest age, in ticks.
     pub limit: u64,
     /// The component or sensor that they come from.
@@ -52,9 +54,9 @@ pub struct AgeBound {
 }
 
 impl AgeBound {
-    /// The name of the invariant that says so of the bound with this number in its system, the first one 0.
-    pub fn invariant(&self, number: usize) -> String {
-        format!("inv_age{}_{}_to_{}", number + 1, self.from.text, self.to.text)
+    /// The name of the invariant that says so.
+    pub fn invariant(&self) -> String {
+        format!("inv_age{}_{}_to_{}", self.number + 1, self.from.text, self.to.text)
     }
 }
 

@@ -64,7 +64,8 @@ pub use owed_leaving::{Leaving, leaving};
 pub use proof_on_part::{PartQuestion, PartSearch, ProofOnPart, SystemParts};
 pub use test::{SeededChoices, Suite, Tested, own_files};
 pub use verified_system::{
-    AgedWay, GroundRun, ReducedSystem, VerifiedSystem, aged_ways, not_kept, reduced_system, verified_system,
+    AgedWay, GroundRun, ReducedSystem, SureAge, VerifiedSystem, aged_system, aged_ways, not_kept, reduced_system,
+    verified_system,
 };
 pub use verify_preserved::verify_preserved;
 pub use workspace::Workspace;

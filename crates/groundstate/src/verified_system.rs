@@ -9,7 +9,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 use std::sync::Arc;
 
-use chart::{Chart, ComponentMachine, Known, Lengths};
+use chart::system::{AgeBound, length};
+use chart::{Chart, ComponentMachine, Known, Lengths, times};
 use conform::Events;
 use machine::{Choice, Closed, Environment, Limits, Location, LocationRef, Show, TimeUnit, Value};
 use model::Loader;
@@ -37,12 +38,23 @@ pub struct VerifiedSystem {
     /// The same, with elaborations of asynchronous components that take any time. What holds of it holds of `loaded`, and it has far
     /// fewer states. None without such elaborations.
     pub general: Option<Loaded>,
+    /// The age bounds that need no search, and are no part of these models.
+    pub ages: Vec<SureAge>,
     /// The warnings of the chart.
     pub warnings: Located,
     /// The ground model of the same chart, without what elaborations compute; with data, with what machines decide.
     pub ground: Loaded,
     /// That of the whole chart, if machines are left out.
     whole: Option<Loaded>,
+}
+
+/// An age bound that holds by the responses of the tasks.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct SureAge {
+    /// The name of its invariant in the ground model.
+    pub name: String,
+    /// The greatest age that is possible.
+    pub most: String,
 }
 
 const VERIFICATION: &str = "verification/";
@@ -105,7 +117,20 @@ pub struct AgedWay {
     pub loaded: Loaded,
 }
 
-/// The ways of a system's age bounds, each with a model in which asynchronous elaborations beside it take any time: what holds of the
+/// The model that verifies a system as drawn with all its age bounds, also those that hold without a search: who looks for a run against
+/// one of these needs it.
+///
+/// # Errors
+/// As [`verified_system`].
+pub fn aged_system(root: SourceFile, loader: &mut dyn Loader) -> Result<Option<Loaded>, Vec<Located>> {
+    let verifiable = Verifiable::load(root, loader)?;
+    let part = chart::verifiable(&verifiable.chart, &|_| false);
+    let text = chart::verified(&part, &[], Lengths::AsDrawn);
+    let Some((text, library)) = text.zip(chart::library(&part)) else { return Ok(None) };
+    load_with(&library, format!("{}{}InTicks.asm", verifiable.folder, verifiable.chart.name), text, loader).map(Some)
+}
+
+/// The ways of a system's age bounds that need a search, each with a model in which asynchronous elaborations beside it take any time: what holds of the
 /// ages there holds of the system, and there are far fewer states than where all times count. What machines decide is left out: it changes
 /// no time.
 ///
@@ -116,7 +141,9 @@ pub fn aged_ways(root: SourceFile, loader: &mut dyn Loader) -> Result<Vec<AgedWa
     let part = chart::verifiable(&verifiable.chart, &|_| false);
     let Some((system, library)) = part.system.as_ref().zip(chart::library(&part)) else { return Ok(Vec::new()) };
     let mut found = Vec::new();
-    for (bound, stated) in system.bounds.iter().enumerate() {
+    let sure = times::surely_within(system);
+    let open = system.bounds.iter().enumerate().filter(|(bound, _)| sure[*bound].is_none());
+    for (bound, stated) in open {
         for way in 0..chart::ways::followed(system, stated).len() {
             let Some(text) = chart::verified(&part, &[], Lengths::AnyBeside { bound, way }) else {
                 unreachable!("it has a system and a library")
@@ -124,13 +151,20 @@ pub fn aged_ways(root: SourceFile, loader: &mut dyn Loader) -> Result<Vec<AgedWa
             let name = format!("{}{}InTicks.asm", verifiable.folder, verifiable.chart.name);
             let mut loaded = load_with(&library, name, text, loader)?;
             let program = Arc::make_mut(&mut loaded.program);
-            // Alone, the bound is the first one.
-            program.properties.retain(|property| property.name == stated.invariant(0));
-            program.properties.iter_mut().for_each(|property| property.name = stated.invariant(bound));
+            program.properties.retain(|property| property.name == stated.invariant());
             found.push(AgedWay { bound, loaded });
         }
     }
     Ok(found)
+}
+
+/// The age bounds of a chart's system that hold by the responses of its tasks.
+fn sure_ages(chart: &Chart) -> Vec<SureAge> {
+    let Some(system) = &chart.system else { return Vec::new() };
+    let told = |(bound, most): (&AgeBound, Option<u64>)| {
+        Some(SureAge { name: bound.invariant(), most: length(most? as i64, system.tick_ns) })
+    };
+    system.bounds.iter().zip(times::surely_within(system)).filter_map(told).collect()
 }
 
 /// A chart whose system can be verified.
@@ -170,7 +204,12 @@ impl Verifiable {
         loader: &mut dyn Loader,
     ) -> Result<Box<VerifiedSystem>, Vec<Located>> {
         let Verifiable { chart, known, folder, warnings } = self;
-        let text = |lengths| chart::verified(&part, libraries, lengths);
+        let ages = sure_ages(&chart);
+        let mut searched = part.clone();
+        if let Some(system) = &mut searched.system {
+            system.bounds.retain(|bound| !ages.iter().any(|age| age.name == bound.invariant()));
+        }
+        let text = |lengths| chart::verified(&searched, libraries, lengths);
         let (Some(library), Some(drawn), Some(any)) =
             (chart::library(&part), text(Lengths::AsDrawn), text(Lengths::Any))
         else {
@@ -194,7 +233,7 @@ impl Verifiable {
             },
         };
         let data = chart::kept(&part);
-        Ok(Box::new(VerifiedSystem { chart, part, data, loaded, general, warnings, ground, whole }))
+        Ok(Box::new(VerifiedSystem { chart, part, data, loaded, general, ages, warnings, ground, whole }))
     }
 }
 

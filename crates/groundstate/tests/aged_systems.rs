@@ -5,7 +5,7 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 
 use chart::times::{Order, Platform, times};
 use groundstate::verify::{Options, Outcome, Report, Subject, verify};
-use groundstate::{AgedWay, Loaded, VerifiedSystem, aged_ways, verified_system};
+use groundstate::{AgedWay, Loaded, VerifiedSystem, aged_system, aged_ways, verified_system};
 use machine::{Choice, Closed, Environment, Limits, LocationRef, Machine, TimeUnit, Value};
 use program::{DomainId, Program, PropertyKind};
 use syntax::SourceFile;
@@ -43,7 +43,16 @@ fn drawn(seed: u64) -> String {
                 format!("asynchronous awaits {quantifier} c{index}, d{index}")
             }
             true => format!("asynchronous awaits c{index}"),
-            false => format!("synchronous period {} ms offset {} ms", draw.number(9, 14), draw.number(0, 5)),
+            false => {
+                let (period, offset) = (draw.number(9, 14), draw.number(0, 5));
+                let jitter =
+                    if draw.number(0, 3) == 0 { format!(" jitter {} ms", draw.number(1, 3)) } else { String::new() };
+                let deadline = match draw.number(0, 2) {
+                    0 => format!(" deadline {} ms", period - draw.number(0, 3)),
+                    _ => String::new(),
+                };
+                format!("synchronous period {period} ms{jitter} offset {offset} ms{deadline}")
+            }
         };
         if index > 0 {
             phases.push(format!("read c{index} 1 ms"));
@@ -59,9 +68,22 @@ fn drawn(seed: u64) -> String {
             let kind = match draw.number(0, 3) {
                 0 => "queue 4".to_string(),
                 1 => "shared value".to_string(),
-                _ => format!("swinging buffer 2 master t{}", index + draw.number(0, 1) as usize),
+                _ => {
+                    let arrays = draw.number(2, 3);
+                    format!("swinging buffer {arrays} master t{}", index + draw.number(0, 1) as usize)
+                }
             };
-            channels += &format!("\tchannel c{} from t{index} to t{} {kind}\n", index + 1, index + 1);
+            // With a second reader, now and then, who keeps the writer waiting, too.
+            let mut readers = format!("t{}", index + 1);
+            if draw.number(0, 5) == 0 && !kind.contains("master") {
+                let period = draw.number(9, 14);
+                text += &format!(
+                    "\tcomponent r{index} synchronous period {period} ms\n\t\tread c{} 1 ms\n\t\telaborate y{index} 1 ms\n\tendcomponent\n",
+                    index + 1
+                );
+                readers += &format!(", r{index}");
+            }
+            channels += &format!("\tchannel c{} from t{index} to {readers} {kind}\n", index + 1);
         }
         text += &format!("\tcomponent t{index} {kind}\n");
         phases.iter().for_each(|phase| text += &format!("\t\t{phase}\n"));
@@ -146,11 +168,15 @@ fn is_age(program: &Program, subject: Subject) -> bool {
 fn bounds_without_a_search_hold_in_every_run() {
     let (mut held, mut refuted, mut tight) = (0, 0, 0);
     let full = std::env::var_os("GROUNDSTATE_FULL").is_some();
-    let (seeds, states) = if full { (60, 30_000) } else { (5, 1_000) };
+    let (seeds, states) = if full { (120, 30_000) } else { (8, 4_000) };
     for seed in 1..=seeds {
         let text = drawn(seed);
         let (Some(most), waits) = bounded(&text) else { continue };
+        let root = || SourceFile::new("Aged.chart", with_limit(&text, most));
+        let drawn = aged_system(root(), &mut Patterns).unwrap_or_else(|faults| panic!("{faults:#?}"));
         let mut asked = system(&with_limit(&text, most));
+        assert_eq!(asked.ages.len(), 1, "it needs no search\n{text}");
+        asked.loaded = drawn.expect("it has a system");
         let mut loaded = asked.loaded.overlay();
         for (name, wait) in &waits {
             // A writer from the side may wait for room in a queue; where the age rests on it, there is none.

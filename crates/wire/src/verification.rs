@@ -70,7 +70,8 @@ impl Verdict {
         }
     }
 
-    fn holds(words: &Verdicts<'_>, subject: Subject) -> Verdict {
+    /// That a check holds.
+    pub fn holds(words: &Verdicts<'_>, subject: Subject) -> Verdict {
         let (kind, span) = match subject {
             Subject::Property(index) => ("property", Some(words.program.properties[index].span)),
             _ => ("builtin", None),

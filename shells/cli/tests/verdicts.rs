@@ -132,6 +132,15 @@ fn an_age_that_is_proved_on_its_ways() {
     // Each bound under its own name.
     let (code, text) = verify("24 ms from eye to hand\nwithin 30");
     assert!(code == Some(0) && text.contains(holds) && text.contains(&holds.replace("age1", "age2")), "{text}");
+    // Where nobody waits for too long, the responses of the tasks prove it without a search.
+    let slow = CHART.replace("period 6 ms", "period 20 ms").replace("period 4 ms", "period 9 ms");
+    std::fs::write(folder.path().join("Line.chart"), slow.replace("LIMIT", "99")).expect("it can be written");
+    let (code, text) = said(folder.path(), &["verify", "Line.chart"]);
+    assert!(
+        code == Some(0) && text.contains("holds     inv_age1_eye_to_hand (by the responses of its tasks, at most "),
+        "{text}"
+    );
+    assert!(!text.contains("each way by itself"), "{text}");
     let (code, text) = verify("22");
     assert!(code == Some(1) && text.contains("violated  inv_age1_eye_to_hand, after "), "{text}");
     assert!(!text.contains("by the responses"), "{text}");

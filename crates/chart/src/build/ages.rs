@@ -65,7 +65,7 @@ impl Ages {
     /// The invariant of each bound: its name and its text.
     pub(super) fn invariants(&self, system: &System) -> Vec<(String, String)> {
         let each = |(index, bound): (usize, &AgeBound)| {
-            let name = bound.invariant(index);
+            let name = bound.invariant();
             let ways = self.ways.iter().filter(|way| way.bound == index);
             let all: Vec<String> = ways.map(|way| format!("way_tooOld({}) = 0", way.name)).collect();
             let text = format!("invariant {name} over way_tooOld: {}\n", all.join(" and "));

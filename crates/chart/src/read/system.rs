@@ -148,7 +148,8 @@ impl Reader {
         }
         let named = |token: &SyntaxToken, span| Named { text: token.text().to_string(), span };
         let end = |token: &SyntaxToken| named(token, self.span(token));
-        let bound = AgeBound { limit, from: end(&from), to: end(&to), way: None, span };
+        let number = system.bounds.len();
+        let bound = AgeBound { number, limit, from: end(&from), to: end(&to), way: None, span };
         let device = |name: &str| system.devices.iter().find(|device| device.name == name);
         let reason = match (device(from.text()), device(to.text())) {
             _ if strangers => None,

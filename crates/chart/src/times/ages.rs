@@ -104,8 +104,8 @@ impl<'a> Chain<'a> {
         }
         let response = self.analysis.responses[component];
         let response = response.ok_or_else(|| format!("no longest response of {} is known", self.name(component)))?;
-        match self.system.components[component].timing {
-            Timing::Synchronous { deadline, .. } if response > deadline => {
+        match self.system.components[component].available() {
+            Some(available) if response > available => {
                 Err(format!("{} may leave out an access to keep its deadline", self.name(component)))
             }
             _ => Ok(response),

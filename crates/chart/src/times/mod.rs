@@ -20,7 +20,7 @@ use syntax::Diagnostic;
 
 use crate::build::busy;
 use crate::fault;
-use crate::system::{System, Timing, Tolerance, length};
+use crate::system::{AgeBound, System, Timing, Tolerance, length};
 use response::{Demand, on_one, on_several};
 use starts::Stream;
 
@@ -185,6 +185,15 @@ pub fn times(system: &System, platform: Platform) -> Times {
     let ages = ages::ages(system, &analysis);
     let fresh = fresh::fresh(system, &analysis);
     Times { platform, tasks, load, overloaded, ages, fresh }
+}
+
+/// For each age bound the greatest age, if it is within the bound by the responses of the tasks alone, each on a processor of its own as
+/// in the model that is verified.
+pub fn surely_within(system: &System) -> Vec<Option<u64>> {
+    let apart = Platform { processors: system.components.len() as u64, order: Order::Rate };
+    let ages = ages::ages(system, &Analysis::new(system, apart));
+    let within = |(bound, age): (&AgeBound, Age)| age.most.filter(|most| *most <= bound.limit);
+    system.bounds.iter().zip(ages).map(within).collect()
 }
 
 /// What a chart must be told: of its age bounds, and of its processors, if it says how many there are.

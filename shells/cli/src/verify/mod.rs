@@ -299,6 +299,7 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
         Some(system) => {
             system::refuse(system, &asked, loaded.program.properties.len(), terminal.as_ref())?;
             system::about(shell, system)?;
+            system::sure_ages(shell, system)?;
             let sought = system::Sought { arguments, options: &options, agents };
             match system::general(shell, system, &sought, watch)? {
                 system::General::Decided(exit) => return Ok(exit),

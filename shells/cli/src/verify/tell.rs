@@ -94,6 +94,19 @@ impl Teller<'_> {
         self.extent(shell, &report.progress, Extent::of(report))
     }
 
+    /// Prints that a check holds without a search, and by what.
+    pub fn proved(&self, shell: &mut Shell, subject: Subject, by: String) -> Result<(), Failure> {
+        if shell.json() {
+            let mut line = wire::Verdict::holds(&self.words, subject);
+            line.by = Some(by);
+            return shell.object(&line);
+        }
+        if shell.talks() {
+            writeln!(shell.out(), "holds     {} ({by})", self.words.name(subject))?;
+        }
+        Ok(())
+    }
+
     /// Prints how far a search without reductions came.
     pub fn explored(&self, shell: &mut Shell, progress: &Progress, complete: bool) -> Result<(), Failure> {
         if shell.json() {
