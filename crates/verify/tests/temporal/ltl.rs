@@ -27,7 +27,19 @@ fn case(seed: u64, operators: Operators, with_fairness: bool) -> bool {
     let constraints = if with_fairness { constraints(random, sample.states) } else { Vec::new() };
     let mut formulas = LtlFormulas::default();
     let depth = 1 + random.below(4);
-    let root = formula(random, &mut formulas, operators, depth);
+    let mut root = formula(random, &mut formulas, operators, depth);
+    // A conjunction, which is decided part by part: under an operator that holds always, beside another formula, or both.
+    if random.below(3) == 0 {
+        let other = formula(random, &mut formulas, operators, depth);
+        let both = formulas.and(root, other);
+        let always = formulas.globally(both);
+        let beside = formula(random, &mut formulas, operators, 1);
+        root = match random.below(3) {
+            0 => both,
+            1 => always,
+            _ => formulas.and(beside, always),
+        };
+    }
     let verdict = decide(&graph, &fairness(&graph, &constraints), &formulas, root);
     let mut any = false;
     each_lasso(&graph, 6, &mut |start, edges, turn| {

@@ -107,6 +107,31 @@ fn too_many_obligations_end_at_a_limit_that_is_named() {
     assert_eq!(verdict, FormulaVerdict::Spent(Spent::Limit { of: "untils in a formula", value: 64 }));
 }
 
+/// The parts of a conjunction are decided one by one, so there may be more of them than untils in one formula.
+#[test]
+fn a_conjunction_may_have_many_parts() {
+    let graph = point(20);
+    let mut formulas = LtlFormulas::default();
+    let mut all = formulas.constant(true);
+    for number in 0..200 {
+        let (left, right) = (formulas.proposition(number % 20), formulas.proposition(number % 19));
+        let before = formulas.previous(left);
+        let (sometimes, once) = (formulas.finally(right), formulas.weak_previous(before));
+        let each = formulas.implies(once, sometimes);
+        let next = formulas.next(each);
+        all = formulas.and(all, next);
+        let always = formulas.globally(each);
+        all = formulas.and(all, always);
+    }
+    assert_eq!(linear(&graph, Allowance::default(), &formulas, all), FormulaVerdict::Holds { vacuous: false });
+    let under = formulas.globally(all);
+    assert_eq!(linear(&graph, Allowance::default(), &formulas, under), FormulaVerdict::Holds { vacuous: false });
+    let wrong = formulas.proposition(0);
+    let wrong = formulas.not(wrong);
+    let all = formulas.and(all, wrong);
+    assert!(matches!(linear(&graph, Allowance::default(), &formulas, all), FormulaVerdict::Violated { .. }));
+}
+
 #[test]
 fn a_decision_can_be_stopped() {
     let graph = point(20);

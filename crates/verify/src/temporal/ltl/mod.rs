@@ -23,18 +23,102 @@ use crate::graph::StateSet;
 use crate::temporal::budget::{Budget, Spent};
 use crate::temporal::checker::Checker;
 use crate::temporal::component::{Acceptance, Edges, Marks};
-use crate::temporal::formula::{FormulaId, Ltl, LtlFormulas};
+use crate::temporal::formula::{FormulaId, Logic, Ltl, LtlFormulas};
 use crate::temporal::lasso::accepted_lasso;
 use crate::temporal::run::Run;
 
 pub use automaton::MOST_UNTILS;
 
 /// A fair run from an initial state that violates the formula; `None` if the explored part has none. A path without a
-/// turn violates the formula however it continues.
+/// turn violates the formula however it continues. The parts of a conjunction are decided one by one: together their
+/// automata would multiply. Of their runs, the shortest is returned, a path rather than a lasso.
 ///
 /// # Errors
-/// The caller asked to stop, or a limit was reached.
+/// The caller asked to stop, or a limit was reached, and no other part is violated.
 pub fn violating_run(
+    checker: &Checker<'_>,
+    formulas: &LtlFormulas,
+    formula: FormulaId,
+    budget: &mut Budget<'_>,
+) -> Result<Option<Run>, Spent> {
+    let mut table = formulas.clone();
+    let (mut found, mut spent): (Option<Run>, Option<Spent>) = (None, None);
+    for part in conjuncts(&mut table, formula) {
+        match violating_part(checker, &table, part, budget) {
+            Ok(Some(run)) => {
+                let length = |run: &Run| (run.turn.is_some(), run.edges.len());
+                if found.as_ref().is_none_or(|other| length(&run) < length(other)) {
+                    found = Some(run);
+                }
+            }
+            Ok(None) => {}
+            Err(Spent::Stopped) => return Err(Spent::Stopped),
+            Err(limit) => _ = spent.get_or_insert(limit),
+        }
+    }
+    if let Some(run) = &found {
+        check(checker, formulas, formula, run);
+    }
+    match (found, spent) {
+        (None, Some(limit)) => Err(limit),
+        (found, _) => Ok(found),
+    }
+}
+
+/// Formulas that hold together where this one does: the parts of a conjunction, and of one that always holds. Parts without temporal
+/// operators stay together.
+fn conjuncts(table: &mut LtlFormulas, formula: FormulaId) -> Vec<FormulaId> {
+    let mut all = Vec::new();
+    for part in parts(table, formula) {
+        let Some(always) = held_always(table, part) else {
+            all.push(part);
+            continue;
+        };
+        let (temporal, plain): (Vec<FormulaId>, Vec<FormulaId>) =
+            parts(table, always).into_iter().partition(|part| is_temporal(table, *part));
+        let together = plain.into_iter().reduce(|left, right| table.and(left, right));
+        for part in temporal.into_iter().chain(together) {
+            all.push(table.globally(part));
+        }
+    }
+    all
+}
+
+/// The operands of nested conjunctions, from the left.
+fn parts(table: &LtlFormulas, formula: FormulaId) -> Vec<FormulaId> {
+    let (mut open, mut found) = (vec![formula], Vec::new());
+    while let Some(formula) = open.pop() {
+        match table.node(formula) {
+            Ltl::And(left, right) => open.extend([right, left]),
+            _ => found.push(formula),
+        }
+    }
+    found
+}
+
+/// What always holds if this formula does: of `G p`, which is `not (true U not p)`, the formula `p`.
+fn held_always(table: &mut LtlFormulas, formula: FormulaId) -> Option<FormulaId> {
+    let Ltl::Not(some_time) = table.node(formula) else { return None };
+    let Ltl::Until(left, right) = table.node(some_time) else { return None };
+    matches!(table.node(left), Ltl::Constant(true)).then(|| table.not(right))
+}
+
+fn is_temporal(table: &LtlFormulas, formula: FormulaId) -> bool {
+    let (mut open, mut seen) = (vec![formula], BTreeSet::new());
+    while let Some(formula) = open.pop() {
+        match table.node(formula) {
+            Ltl::Next(_) | Ltl::Until(..) | Ltl::Previous(_) | Ltl::Since(..) => return true,
+            Ltl::Constant(_) | Ltl::Proposition(_) | Ltl::Not(_) | Ltl::And(..) => {}
+        }
+        if seen.insert(formula) {
+            open.extend(table.node(formula).parts());
+        }
+    }
+    false
+}
+
+/// The same for a formula that is taken as one.
+fn violating_part(
     checker: &Checker<'_>,
     formulas: &LtlFormulas,
     formula: FormulaId,
@@ -43,7 +127,7 @@ pub fn violating_run(
     let mut automaton = Automaton::new(Normal::of(formulas, formula, false))?;
     let letters = Letters::of(checker.graph(), propositions(formulas, formula), budget)?;
     let (product, made) = Product::make(checker, &mut automaton, &letters, budget)?;
-    let run = match made {
+    Ok(match made {
         Made::Satisfied(node) => Some(product.satisfying_path(checker, node)),
         Made::Whole => {
             let acceptance =
@@ -57,11 +141,7 @@ pub fn violating_run(
                 Run::lasso(product.state(lasso.start), stem, turn)
             })
         }
-    };
-    if let Some(run) = &run {
-        check(checker, formulas, formula, run);
-    }
-    Ok(run)
+    })
 }
 
 /// The propositions of a formula, ascending.
