@@ -17,7 +17,7 @@ signature:
 definitions:
 	/* another parcel: the picture of each is sent until the next one comes */
 	rule r_number =
-		let ($parcel = (arrivals + 1) mod 3) in
+		let ($parcel = (arrivals + 1) mod 6) in
 			par
 				arrivals := $parcel
 				labels := ($parcel, printed)
@@ -30,7 +30,7 @@ definitions:
 
 	/* a parcel that comes has the next number, and is sent as it is seen then; nothing else gets a number */
 	LTLSPEC ltlSpec_numbers:
-		(forall $p in Parcel with g(y(arrivals = $p and seen and not y(seen)) implies arrivals = ($p + 1) mod 3))
+		(forall $p in Parcel with g(y(arrivals = $p and seen and not y(seen)) implies arrivals = ($p + 1) mod 6))
 	LTLSPEC ltlSpec_keeps:
 		(forall $p in Parcel with g(y(arrivals = $p and not (seen and not y(seen))) implies arrivals = $p))
 	LTLSPEC ltlSpec_label:
@@ -38,7 +38,7 @@ definitions:
 	LTLSPEC ltlSpec_shape:
 		(forall $d in Dent with g(y(outline = $d and seen and not y(seen)) implies shapes = (arrivals, $d)))
 	/* the first parcel has the number 0 */
-	LTLSPEC ltlSpec_begins: arrivals = 2
+	LTLSPEC ltlSpec_begins: arrivals = 5
 
 	main rule r_Main =
 		par
@@ -48,4 +48,4 @@ definitions:
 
 default init s0:
 	function wasSeen = false
-	function arrivals = 2
+	function arrivals = 5

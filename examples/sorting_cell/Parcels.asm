@@ -6,7 +6,7 @@ import ../../library/std/StandardLibrary
 export *
 
 signature:
-	/* parcels are numbered as they come; a number is used again when its parcel has left the belt */
+	/* parcels are numbered as they come; a number is used again when nobody says anything more about its last parcel */
 	domain Parcel subsetof Integer
 	/* how far the belt has come, in places: it is counted around */
 	domain Way subsetof Integer
@@ -19,7 +19,7 @@ signature:
 	enum domain Shape = {WHOLE | DAMAGED}
 
 definitions:
-	domain Parcel = {0 : 2}
+	domain Parcel = {0 : 5}
 	domain Way = {0 : 3}
 	domain Digit = {0 : 9}
 	domain Dent = {0 : 9}

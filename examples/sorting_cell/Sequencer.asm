@@ -50,7 +50,7 @@ definitions:
 		or (
 			isDef(arrivals)
 			and arrivals != arrived
-			and (arrivals != (arrived + 1) mod 3 or (isDef(entering) and not moved)))
+			and (arrivals != (arrived + 1) mod 6 or (isDef(entering) and not moved)))
 
 	function isOther($p in Parcel, $bin in Bin) = isDef(codes) and first(codes) = $p and second(codes) != $bin
 	function isDamaged($p in Parcel) = isDef(classes) and first(classes) = $p and second(classes) = DAMAGED
@@ -125,17 +125,17 @@ definitions:
 	CTLSPEC ctlSpec_stopped: ag(stop implies ax(ag(not leftOrders and not rightOrders)))
 
 	/* it runs on just as long as nothing is lost: the belt moves by one place at most, the next parcel comes, and only to a free place */
-	LTLSPEC ltlSpec_begins: mode = RUNNING and arrived = 2 and come = 0
+	LTLSPEC ltlSpec_begins: mode = RUNNING and arrived = 5 and come = 0
 	CTLSPEC ctlSpec_counts:
 		(forall $w in Way with ag(mode = RUNNING and way = $w implies ax(mode = RUNNING implies come = $w)))
 	CTLSPEC ctlSpec_lostWay:
 		(forall $w in Way with
 			ag(come = $w and (way = ($w + 2) mod 4 or way = ($w + 3) mod 4) implies ax(mode = STOPPED)))
 	CTLSPEC ctlSpec_lostParcel:
-		(forall $p in Parcel with ag(arrived = $p and arrivals = ($p + 2) mod 3 implies ax(mode = STOPPED)))
+		(forall $p in Parcel with ag(arrived = $p and arrivals = ($p + 2) mod 6 implies ax(mode = STOPPED)))
 	CTLSPEC ctlSpec_onePlace:
 		ag(
-			isDef(entering) and arrivals = (arrived + 1) mod 3 and (isUndef(way) or way = come)
+			isDef(entering) and arrivals = (arrived + 1) mod 6 and (isUndef(way) or way = come)
 			implies ax(mode = STOPPED))
 	CTLSPEC ctlSpec_goesOn:
 		ag(
@@ -145,7 +145,7 @@ definitions:
 				and (
 					isUndef(arrivals)
 					or arrivals = arrived
-					or arrivals = (arrived + 1) mod 3 and (isUndef(entering) or way = (come + 1) mod 4))
+					or arrivals = (arrived + 1) mod 6 and (isUndef(entering) or way = (come + 1) mod 4))
 			implies ax(mode = RUNNING))
 
 	/* unless it is stopped at once, each parcel may be pushed into each bin */
@@ -158,15 +158,12 @@ definitions:
 				(pushedLeft = $p or pushedRight = $p)
 				implies y(s(pushedLeft != $p and pushedRight != $p, entering = $p))))
 
-	/* while it lay under the camera, the last that was said of it is that it goes there, and that it is whole */
+	/* while it lay under the camera, the last that was said of it is that it goes there … */
 	LTLSPEC ltlSpec_left:
 		(forall $p in Parcel with
 			g(
 				pushedLeft = $p
-				implies y(
-					y(
-						s(entering = $p and not isOther($p, LEFT), entering = $p and codes = ($p, LEFT))
-						and s(entering = $p and not isDamaged($p), entering = $p and classes = ($p, WHOLE))))))
+				implies y(y(s(entering = $p and not isOther($p, LEFT), entering = $p and codes = ($p, LEFT))))))
 	LTLSPEC ltlSpec_right:
 		(forall $p in Parcel with
 			g(
@@ -174,10 +171,21 @@ definitions:
 				implies s(
 					entering != $p,
 					following = $p
-					and y(
-						y(
-							s(entering = $p and not isOther($p, RIGHT), entering = $p and codes = ($p, RIGHT))
-							and s(entering = $p and not isDamaged($p), entering = $p and classes = ($p, WHOLE)))))))
+					and y(y(s(entering = $p and not isOther($p, RIGHT), entering = $p and codes = ($p, RIGHT)))))))
+
+	/* … and that it is whole */
+	LTLSPEC ltlSpec_whole:
+		(forall $p in Parcel with
+			g(
+				pushedLeft = $p or following = $p and y(following != $p)
+				implies y(y(s(entering = $p and not isDamaged($p), entering = $p and classes = ($p, WHOLE))))))
+
+	/* a number comes again after five others, each of which came in a step of its own */
+	LTLSPEC ltlSpec_apart:
+		(forall $p in Parcel with
+			g(
+				arrived = $p and y(arrived != $p)
+				implies not y(y(arrived = $p or y(arrived = $p or y(arrived = $p or y(arrived = $p)))))))
 
 	/* the right pusher is one place on: what it pushes lay at the left one before */
 	LTLSPEC ltlSpec_further: (forall $p in Parcel with g(pushedRight = $p implies y(following = $p)))
@@ -186,7 +194,7 @@ definitions:
 
 default init s0:
 	function mode = RUNNING
-	function arrived = 2
+	function arrived = 5
 	function come = 0
 	function leftOrders = false
 	function rightOrders = false

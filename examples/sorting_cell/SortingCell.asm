@@ -9,6 +9,7 @@ import ../../library/std/StandardLibrary
 import ../../library/patterns/ControlTask
 import Parcels
 import ../../library/patterns/VaryingTimes
+import ../../library/patterns/DataAges
 
 signature:
 	static camera: Scheduler
@@ -149,6 +150,66 @@ signature:
 	static rightPusher_stroke: RightPusherCycles
 	derived rightPusher_ordered: Boolean
 
+	static bound1_hop1: AgeHop
+
+	static bound1_hop2: AgeHop
+
+	static bound1_hop3: AgeHop
+
+	static bound1_hop4: AgeHop
+
+	static bound1_hop5: AgeHop
+
+	static bound2_hop1: AgeHop
+
+	static bound2_hop2: AgeHop
+
+	static bound2_hop3: AgeHop
+
+	static bound2_hop4: AgeHop
+
+	static bound2_hop5: AgeHop
+
+	static bound2_hop6: AgeHop
+
+	static bound2_hop7: AgeHop
+
+	static bound2_hop8: AgeHop
+
+	static bound3_hop1: AgeHop
+
+	static bound3_hop2: AgeHop
+
+	static bound3_hop3: AgeHop
+
+	static bound3_hop4: AgeHop
+
+	static bound3_hop5: AgeHop
+
+	static bound3_hop6: AgeHop
+
+	static bound3_hop7: AgeHop
+
+	static bound3_hop8: AgeHop
+
+	static bound1_way1: AgeWay
+
+	static bound1_way2: AgeWay
+
+	static bound1_way3: AgeWay
+
+	static bound2_way1: AgeWay
+
+	static bound2_way2: AgeWay
+
+	static bound2_way3: AgeWay
+
+	static bound3_way1: AgeWay
+
+	static bound3_way2: AgeWay
+
+	static bound3_way3: AgeWay
+
 definitions:
 	// what each task does when it is its turn
 	rule r_controlTask = r_scheduler_execute[self]
@@ -161,7 +222,7 @@ definitions:
 	invariant inv_deadlines over task_deadlinesMissed: (forall $t in Task with task_deadlinesMissed($t) = 0)
 
 	rule r_camera_number =
-		let ($parcel = (camera_arrivals + 1) mod 3) in
+		let ($parcel = (camera_arrivals + 1) mod 6) in
 			par
 				camera_arrivals := $parcel
 				camera_labels := ($parcel, printed)
@@ -257,7 +318,7 @@ definitions:
 			isDef(sequencer_arrivals)
 			and sequencer_arrivals != sequencer_arrived
 			and (
-				sequencer_arrivals != (sequencer_arrived + 1) mod 3
+				sequencer_arrivals != (sequencer_arrived + 1) mod 6
 				or (isDef(sequencer_entering) and not sequencer_moved)))
 
 	function sequencer_isOther($p in Parcel, $bin in Bin) =
@@ -462,12 +523,24 @@ definitions:
 			endif
 		endpar
 
+	invariant inv_age1_camera_to_sequencer over way_tooOld:
+		way_tooOld(bound1_way1) = 0 and way_tooOld(bound1_way2) = 0 and way_tooOld(bound1_way3) = 0
+
+	invariant inv_age2_printed_to_leftArm over way_tooOld:
+		way_tooOld(bound2_way1) = 0 and way_tooOld(bound2_way2) = 0 and way_tooOld(bound2_way3) = 0
+
+	invariant inv_age3_printed_to_rightArm over way_tooOld:
+		way_tooOld(bound3_way1) = 0 and way_tooOld(bound3_way2) = 0 and way_tooOld(bound3_way3) = 0
+
 	main rule r_Main =
-		par
-			forall $c in Scheduler with true do program($c)
-			forall $s in Semaphore with true do r_sem_arbitrate[$s]
-			clock := clock + 1
-		endpar
+		seq
+			par
+				forall $c in Scheduler with true do program($c)
+				forall $s in Semaphore with true do r_sem_arbitrate[$s]
+				clock := clock + 1
+			endpar
+			r_ages[]
+		endseq
 
 default init s0:
 	function clock = 0
@@ -692,12 +765,137 @@ default init s0:
 			otherwise undef
 		endswitch
 	function elaborationRule($p in SchedulePhase) = undef
+	function hop_before($h in AgeHop) =
+		switch $h
+			case bound1_hop2: bound1_hop1
+			case bound1_hop4: bound1_hop3
+			case bound2_hop2: bound2_hop1
+			case bound2_hop3: bound2_hop2
+			case bound2_hop5: bound2_hop4
+			case bound2_hop6: bound2_hop5
+			case bound2_hop8: bound2_hop7
+			case bound3_hop2: bound3_hop1
+			case bound3_hop3: bound3_hop2
+			case bound3_hop5: bound3_hop4
+			case bound3_hop6: bound3_hop5
+			case bound3_hop8: bound3_hop7
+			otherwise undef
+		endswitch
+	function hop_writer($h in AgeHop) =
+		switch $h
+			case bound1_hop2: reader
+			case bound1_hop4: classifier
+			case bound2_hop2: reader
+			case bound2_hop3: sequencer
+			case bound2_hop5: classifier
+			case bound2_hop6: sequencer
+			case bound2_hop8: sequencer
+			case bound3_hop2: reader
+			case bound3_hop3: sequencer
+			case bound3_hop5: classifier
+			case bound3_hop6: sequencer
+			case bound3_hop8: sequencer
+			otherwise camera
+		endswitch
+	function hop_decided($h in AgeHop) =
+		switch $h
+			case bound1_hop2: reader_decode
+			case bound1_hop4: classifier_classify
+			case bound2_hop2: reader_decode
+			case bound2_hop3: sequencer_decide
+			case bound2_hop5: classifier_classify
+			case bound2_hop6: sequencer_decide
+			case bound2_hop8: sequencer_decide
+			case bound3_hop2: reader_decode
+			case bound3_hop3: sequencer_decide
+			case bound3_hop5: classifier_classify
+			case bound3_hop6: sequencer_decide
+			case bound3_hop8: sequencer_decide
+			otherwise camera_scan
+		endswitch
+	function hop_buffer($h in AgeHop) =
+		switch $h
+			case bound1_hop1: labels
+			case bound1_hop2: codes
+			case bound1_hop3: shapes
+			case bound1_hop4: classes
+			case bound1_hop5: arrivals
+			case bound2_hop1: labels
+			case bound2_hop2: codes
+			case bound2_hop3: leftOrders
+			case bound2_hop4: shapes
+			case bound2_hop5: classes
+			case bound2_hop6: leftOrders
+			case bound2_hop7: arrivals
+			case bound2_hop8: leftOrders
+			case bound3_hop1: labels
+			case bound3_hop2: codes
+			case bound3_hop4: shapes
+			case bound3_hop5: classes
+			case bound3_hop7: arrivals
+			otherwise rightOrders
+		endswitch
+	function hop_queue($h in AgeHop) = undef
+	function hop_value($h in AgeHop) = undef
+	function way_hop($w in AgeWay) =
+		switch $w
+			case bound1_way1: bound1_hop2
+			case bound1_way2: bound1_hop4
+			case bound1_way3: bound1_hop5
+			case bound2_way1: bound2_hop3
+			case bound2_way2: bound2_hop6
+			case bound2_way3: bound2_hop8
+			case bound3_way1: bound3_hop3
+			case bound3_way2: bound3_hop6
+			otherwise bound3_hop8
+		endswitch
+	function way_end($w in AgeWay) =
+		switch $w
+			case bound1_way1: sequencer
+			case bound1_way2: sequencer
+			case bound1_way3: sequencer
+			case bound2_way1: leftPusher
+			case bound2_way2: leftPusher
+			case bound2_way3: leftPusher
+			otherwise rightPusher
+		endswitch
+	function way_decided($w in AgeWay) =
+		switch $w
+			case bound1_way1: sequencer_decide
+			case bound1_way2: sequencer_decide
+			case bound1_way3: sequencer_decide
+			case bound2_way1: leftPusher_push
+			case bound2_way2: leftPusher_push
+			case bound2_way3: leftPusher_push
+			otherwise rightPusher_push
+		endswitch
+	function way_limit($w in AgeWay) =
+		switch $w
+			case bound1_way1: 600
+			case bound1_way2: 600
+			case bound1_way3: 600
+			otherwise 700
+		endswitch
+	function phaseBefore($c in Scheduler) =
+		switch $c
+			case camera: camera_wait
+			case reader: reader_wait
+			case classifier: classifier_wait
+			case encoder: encoder_wait
+			case sequencer: sequencer_wait
+			case leftPusher: leftPusher_wait
+			otherwise rightPusher_wait
+		endswitch
+	function hop_written($h in AgeHop) = 0
+	function hop_read($h in AgeHop) = 0
+	function way_oldest($w in AgeWay) = 0
+	function way_tooOld($w in AgeWay) = 0
 	function camera_wasSeen = false
-	function camera_arrivals = 2
+	function camera_arrivals = 5
 	function encoder_way = 0
 	function encoder_wasMark = false
 	function sequencer_mode = SEQUENCER_RUNNING
-	function sequencer_arrived = 2
+	function sequencer_arrived = 5
 	function sequencer_come = 0
 	function sequencer_leftOrders = false
 	function sequencer_rightOrders = false

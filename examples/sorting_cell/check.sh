@@ -41,18 +41,17 @@ open(file, "w").write(text.replace(old, new, 1))
 ' "$cell/$2" "$3" "$4"
 }
 
-# found PROPERTY MACHINE: the seeded fault violates the property.
-found() { expect 1 "^violated  $1" "$groundstate" verify "$cell/$2" --quiet; }
+# found PROPERTY MACHINE [OPTION]: the seeded fault violates the property.
+found() { expect 1 "^violated  $1" "$groundstate" verify "$cell/$2" --quiet ${3-}; }
+
+# old BOUND: the seeded fault makes data older than that, as far as is known.
+old() { expect 3 "^age $1: not shown within" "$groundstate" chart times "$cell/SortingCell.chart"; }
 
 for machine in Camera Reader Classifier Encoder Sequencer LeftPusher RightPusher; do
     expect 0 "^holds " "$groundstate" verify $machine.asm
 done
 expect 0 "" "$groundstate" chart check SortingCell.chart
 
-seeded swapped Sequencer.asm "then END else code endif" "then END else if code = LEFT then RIGHT else LEFT endif endif"
-found ltlSpec_left Sequencer.asm
-seeded afterTheStop Sequencer.asm "leftOrders := false" "skip"
-found ctlSpec_stopped Sequencer.asm
 seeded staysOut LeftPusher.asm "remaining := remaining - 1" "remaining := remaining"
 found ltlSpec_ordered LeftPusher.asm
 seeded again RightPusher.asm "if isNewRightOrders and rightOrders" "if isDef(rightOrders) and rightOrders"
@@ -61,23 +60,35 @@ seeded deaf RightPusher.asm "isHalted or stop" "isHalted"
 found ctlSpec_stopped RightPusher.asm
 # What comes before the first datum of a channel: nothing.
 seeded nothing Sequencer.asm "isDef(codes) and first(codes) = entering then" "first(codes) = entering then"
-found "every guard and operation is defined" Sequencer.asm
+found "every guard and operation is defined" Sequencer.asm --first
 seeded torn Camera.asm "labels := (\$parcel, printed)" "labels := (arrivals, printed)"
 found inv_oneParcel Camera.asm
 
 # Long proofs, which `make verify` asks for.
 if [ "${2-}" = whole ]; then
-    expect 0 "^holds     inv_deadlines" "$groundstate" verify SortingCell.chart
+    expect 0 "^holds     inv_age1_camera_to_sequencer (by the responses of its tasks, at most 55.1 ms)" "$groundstate" verify SortingCell.chart
+    grep -q "^holds     inv_deadlines" "$out/said" || fail "the deadlines were not proved"
+    seeded swapped Sequencer.asm "then END else code endif" "then END else if code = LEFT then RIGHT else LEFT endif endif"
+    found ltlSpec_left Sequencer.asm
+    seeded afterTheStop Sequencer.asm "leftOrders := false" "skip"
+    found ctlSpec_stopped Sequencer.asm
+    seeded unseen Sequencer.asm "arrivals != (arrived + 1) mod 6 or (isDef(entering) and not moved)" "isDef(entering) and not moved"
+    found ltlSpec_apart Sequencer.asm
     seeded twice Sequencer.asm "entering) and bin = RIGHT" "entering) and bin != END"
     found ltlSpec_once Sequencer.asm
     seeded damaged Sequencer.asm "or shape != WHOLE" "or shape = undef"
-    found ltlSpec_left Sequencer.asm
+    found ltlSpec_whole Sequencer.asm
     seeded another Sequencer.asm "isDef(codes) and first(codes) = entering then" "isDef(codes) then"
     found ltlSpec_left Sequencer.asm
 fi
 
 # What is wrong between the machines, each of which is right.
+expect 0 "^age from camera to sequencer: at most 55.1 ms" "$groundstate" chart times SortingCell.chart
+seeded slow SortingCell.chart "elaborate classify 8..20 ms" "elaborate classify 8..25 ms"
+old "from camera to sequencer"
 seeded late SortingCell.chart "elaborate classify 8..20 ms" "elaborate classify 60..80 ms"
+expect 1 "is never as young as 60 ms: the phases alone take 64.6 ms" "$groundstate" chart build "$cell/SortingCell.chart"
+sed -i "/^\twithin /d" "$cell/SortingCell.chart"
 expect 0 "" "$groundstate" chart build "$cell/SortingCell.chart"
 expect 1 "^FAIL LeftAndRight" "$groundstate" test "$cell/LeftAndRight.avalla"
 seeded long SortingCell.chart "elaborate count 0.2 ms" "elaborate count 0.2..1.2 ms"

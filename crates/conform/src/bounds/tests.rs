@@ -37,7 +37,11 @@ const ALL: &str = "unread [], uncounted []";
 
 #[test]
 fn intervals_and_ages_are_those_of_the_model() {
-    let (bounds, vocabulary) = of_model("../sorting_cell/SortingCell.asm", 100_000);
+    let (mut bounds, vocabulary) = of_model("../sorting_cell/SortingCell.asm", 100_000);
+    // Two bounds over three ways each, and one whose ways are shorter by a component.
+    let is_age = |bound: &Modelled| matches!(bound.what, What::Age { .. });
+    assert_eq!(bounds.iter().filter(|bound| is_age(bound)).count(), 9);
+    bounds.retain(|bound| !is_age(bound));
     let said = |recorded: &[(&str, &str)]| said(&bounds, &vocabulary, recorded);
     let decode = ("decode of reader", "3..9 ms");
     assert_eq!(said(&[decode, ("classify of classifier", "8..20 ms")]), ALL);
