@@ -102,7 +102,11 @@ pub fn reduced_system(
 ) -> Result<Option<ReducedSystem>, Vec<Located>> {
     let verifiable = Verifiable::load(root, loader)?;
     let Some(reduced) = chart::reduced(&verifiable.chart, speaks_of, widenings) else { return Ok(None) };
-    let chart::Reduced { chart, free, undefined, components } = reduced;
+    let chart::Reduced { mut chart, free, undefined, components } = reduced;
+    // Ages are asked of the whole.
+    if let Some(system) = &mut chart.system {
+        system.bounds.clear();
+    }
     let system = verifiable.with(chart, libraries, loader)?;
     Ok(Some(ReducedSystem { system, free, undefined, components }))
 }

@@ -1,9 +1,9 @@
 //! Asks of a model what it and its `.verify.yaml` ask, with only those checks that count.
 //!
-//! In: a loaded model and the text beside it. Out: what a verification needs. The same text asks the same of a mutant: its
-//! properties have the same numbers.
+//! In: a loaded model and the text beside it. Out: what a verification needs. The same text asks the same of a mutant, but for age
+//! bounds of a system that hold by its times alone: those of a mutant may be others.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use inputs::bound;
@@ -31,12 +31,27 @@ pub(super) struct Asked {
 /// Which checks count, and how far.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Counting {
-    /// By number, the properties that are left out.
-    pub left_out: Vec<bool>,
+    /// The properties that are left out.
+    pub left_out: BTreeSet<Key>,
     /// A state without a step is no violation.
     pub may_rest: bool,
     /// The most steps of a run.
     pub depth: Option<u64>,
+}
+
+/// A property of a model and of its mutants: its name, and how many before it are called so.
+pub(super) type Key = (String, usize);
+
+/// The keys of a program's properties.
+pub(super) fn keys(program: &Program) -> Vec<Key> {
+    let mut called: BTreeMap<&str, usize> = BTreeMap::new();
+    let mut keys = Vec::with_capacity(program.properties.len());
+    for property in &program.properties {
+        let before = called.entry(&property.name).or_default();
+        keys.push((property.name.clone(), *before));
+        *before += 1;
+    }
+    keys
 }
 
 impl Asked {
@@ -89,12 +104,9 @@ impl Asked {
 
     /// Leaves out what does not count.
     pub fn counting(mut self, counting: &Counting) -> Asked {
+        let mut keys = keys(&self.overlay.program).into_iter();
         let program = Arc::make_mut(&mut self.overlay.program);
-        let mut index = 0;
-        program.properties.retain(|_| {
-            index += 1;
-            !counting.left_out.get(index - 1).copied().unwrap_or(false)
-        });
+        program.properties.retain(|_| keys.next().is_none_or(|key| !counting.left_out.contains(&key)));
         if counting.may_rest {
             self.terminal = self.overlay.ask("", "true").ok();
         }

@@ -15,7 +15,7 @@ use simulate::SplitMix;
 use syntax::{Diagnostic, SourceFile, Sources};
 use verify::{NoStart, Outcome, Reason, Report, Stop, Subject};
 
-use super::ask::{Asked, Counting};
+use super::ask::{Asked, Counting, keys};
 use super::drawn::{self, Drawn, Trouble};
 use super::link::{self, Link, Says};
 use super::{Candidate, Extent, Wanted};
@@ -545,7 +545,8 @@ impl Judge {
 /// Which checks count, or why none does, as a clause about the model.
 fn counting(report: &Report, asked: &Asked) -> Result<Counting, String> {
     let program = asked.program();
-    let mut counting = Counting { left_out: vec![false; program.properties.len()], ..Counting::default() };
+    let keys = keys(program);
+    let mut counting = Counting::default();
     if report.stop.is_some() {
         counting.depth = Some(report.progress.depth.saturating_sub(1));
     }
@@ -569,7 +570,7 @@ fn counting(report: &Report, asked: &Asked) -> Result<Counting, String> {
                     // With bounds no state is known to have no step.
                     Subject::NoDeadlock => counting.may_rest = true,
                     _ if !reasons.is_empty() && reasons.iter().all(bounded) => {}
-                    Subject::Property(index) => counting.left_out[index] = true,
+                    Subject::Property(index) => _ = counting.left_out.insert(keys[index].clone()),
                     Subject::Consistent | Subject::InDomain | Subject::Defined => {}
                 }
             }
