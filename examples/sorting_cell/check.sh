@@ -114,6 +114,10 @@ expect 0 "conforms tick by tick" "$groundstate" conform ../SortingCell.asm run.m
 grep -q "^4903 decisions are those of the components' machines" "$out/said" || fail "not all decisions were replayed"
 expect 0 "3 pushes, 0 of them wrong, 0 after the stop; 11 parcels" env STOP_MS=500 ./sorting_cell --virtual 1.5 --log run.mcap
 expect 0 "conforms tick by tick" "$groundstate" conform ../SortingCell.asm run.mcap
+# On a faster belt; on one that is faster than the classifier nothing is pushed, and no parcel is taken for another.
+expect 0 "21 pushes, 0 of them wrong, 0 after the stop; 21 parcels" env STEP_MS=60 ./sorting_cell --virtual 2 --log run.mcap
+expect 0 "conforms tick by tick" "$groundstate" conform ../SortingCell.asm run.mcap
+expect 0 "^0 pushes, 0 of them wrong" env STEP_MS=15 ./sorting_cell --virtual 2
 expect 0 ", 0 of them wrong" ./sorting_cell --virtual 1 --seed 3 --log run.mcap
 expect 0 "conforms by the order of events" "$groundstate" conform ../SortingCell.asm run.mcap
 expect 0 " [1-9][0-9]* of them wrong" env OTHERWISE=1 ./sorting_cell --virtual 1 --log run.mcap
