@@ -35,6 +35,12 @@ impl Access {
     pub fn never(&self) -> bool {
         self.made == 0 && self.given_up + self.refused + self.left_out > 0
     }
+
+    /// Another phase of the task is on the channel, too. The events of a channel are counted once.
+    fn in_another_phase(&mut self, turns: usize, left_out: usize) {
+        self.turns += turns;
+        self.left_out += left_out;
+    }
 }
 
 /// Of each task and channel, in the order of the model.
@@ -59,12 +65,8 @@ pub(crate) fn accesses(recording: &Recording, machine: &Machine, vocabulary: &Vo
             let left_out = count(Kind::Passes, &phase);
             let turns = count(Kind::Begins, &phase) + left_out;
             let made = [Kind::Enters, Kind::Sends, Kind::Takes, Kind::Stores, Kind::Loads];
-            // Two phases of a task may be on one channel; the events of a channel are counted once.
             match own.iter_mut().find(|access| access.channel == *name) {
-                Some(access) => {
-                    access.turns += turns;
-                    access.left_out += left_out;
-                }
+                Some(access) => access.in_another_phase(turns, left_out),
                 None => own.push(Access {
                     task: component.name.clone(),
                     channel: name.to_string(),
@@ -80,4 +82,28 @@ pub(crate) fn accesses(recording: &Recording, machine: &Machine, vocabulary: &Vo
         all.extend(own);
     }
     all
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Access;
+
+    #[test]
+    fn two_phases_on_one_channel_are_one_access() {
+        let mut access = Access { turns: 3, made: 2, left_out: 1, ..Access::default() };
+        access.in_another_phase(4, 2);
+        assert_eq!(access, Access { turns: 7, made: 2, left_out: 3, ..Access::default() });
+    }
+
+    #[test]
+    fn never_made_means_that_something_kept_it_away_each_time() {
+        let counts = || 0..3_usize;
+        for (made, given_up, refused, left_out) in counts()
+            .flat_map(|a| counts().flat_map(move |b| counts().flat_map(move |c| counts().map(move |d| (a, b, c, d)))))
+        {
+            let access = Access { made, given_up, refused, left_out, ..Access::default() };
+            let kept_away = given_up > 0 || refused > 0 || left_out > 0;
+            assert_eq!(access.never(), made == 0 && kept_away, "{access:?}");
+        }
+    }
 }
