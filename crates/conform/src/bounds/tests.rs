@@ -71,6 +71,31 @@ fn intervals_and_ages_are_those_of_the_model() {
 }
 
 #[test]
+fn bounds_are_those_of_the_model() {
+    let (bounds, _) = of_model("../../cpp/systems/Watched.asm", 500_000);
+    let told: Vec<String> = bounds
+        .iter()
+        .filter_map(|Modelled { what, limit }| match what {
+            What::Releases { of } => Some(format!("releases of {of} {limit:?}")),
+            What::News { channel, of } => Some(format!("{channel} for {of} {limit:?}")),
+            What::Misses { of } => Some(format!("missed by {of} {limit:?}")),
+            What::Age { from, to, over } => Some(format!("{from} to {to} over {} {limit:?}", over.join(", "))),
+            What::Elaboration { .. } => None,
+        })
+        .collect();
+    let expected = [
+        "releases of camera Ns(1000000)",
+        "missed by control Misses { most: 1, of: 5 }",
+        "releases of motor Ns(500000)",
+        "marks for control Ns(28000000)",
+        "set for motor Ns(8000000)",
+        "camera to motor over frames, marks, set Ns(60000000)",
+        "control to motor over set Ns(8000000)",
+    ];
+    assert_eq!(told, expected);
+}
+
+#[test]
 fn every_kind_is_held_to_its_own() {
     let (_, vocabulary) = of_model("../sorting_cell/SortingCell.asm", 100_000);
     let name = |text: &str| text.to_string();
