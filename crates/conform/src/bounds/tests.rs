@@ -123,6 +123,9 @@ fn every_kind_is_held_to_its_own() {
         ("age from eye to sequencer over codes, orders", "within 30 ms"),
     ];
     assert_eq!(said(&bounds, &vocabulary, &good), ALL);
+    // One that does not say over which channels means the one that is left, wherever it stands.
+    let first = [&[("age from eye to sequencer", "within 30 ms")], &good[..3], &good[4..]].concat();
+    assert_eq!(said(&bounds, &vocabulary, &first), ALL);
     for (at, other) in [
         (0, ("releases of reader", "2.5 ms")),
         (0, ("releases of sequencer", "2 ms")),
@@ -164,5 +167,24 @@ fn lengths_are_read_exactly_or_not_at_all() {
         ("", None),
     ] {
         assert_eq!(length(text), ns, "{text}");
+    }
+}
+
+/// What a generated program does not say like that is not compared, and named.
+#[test]
+fn other_words_are_not_compared() {
+    let (_, vocabulary) = of_model("../sorting_cell/SortingCell.asm", 100_000);
+    for (what, limit) in [
+        ("jumps of reader", "2 ms"),
+        ("releases of two words", "2 ms"),
+        ("releases of ", "2 ms"),
+        ("deadlines missed by two words", "1 of 20"),
+        ("new codes for ", "every 20 ms"),
+        ("new  for sequencer", "every 20 ms"),
+    ] {
+        let bounds = [Modelled { what: What::Releases { of: "reader".to_string() }, limit: Limit::Ns(2_000_000) }];
+        let words = said(&bounds, &vocabulary, &[(what, limit)]);
+        let unread = format!("unread [\"{what} ({limit})\"], uncounted [\"releases of reader (2 ms)\"]");
+        assert_eq!(words, unread);
     }
 }
