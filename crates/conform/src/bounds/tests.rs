@@ -188,3 +188,14 @@ fn other_words_are_not_compared() {
         assert_eq!(words, unread);
     }
 }
+
+#[test]
+fn an_age_is_told_with_its_channels() {
+    let age = |over: &[&str]| What::Age {
+        from: "eye".to_string(),
+        to: "arm".to_string(),
+        over: over.iter().map(|one| (*one).to_string()).collect(),
+    };
+    assert_eq!(age(&[]).shown(), "age from eye to arm");
+    assert_eq!(age(&["codes", "orders"]).shown(), "age from eye to arm over codes, orders");
+}
