@@ -142,7 +142,7 @@ cpp-mutants: ## small faults in the C++ runtime: its tests and ThreadSanitizer n
 	python3 cpp/mutate.py --every $(or $(EVERY),1)
 
 # cargo-mutants is not installed here: it would be one more program for one check.
-rust-mutants: ## small faults in `conform`, the search and the semantics, judged by their tests, if cargo-mutants is there: a day; MUTANTS="--shard 0/8" takes a part
+rust-mutants: ## small faults in `conform`, the search and the semantics, judged by their tests, if cargo-mutants is there: a day; a part with MUTANTS="--shard 0/8"
 	@if cargo mutants --version 2>/dev/null; then code=0; \
 	    for judged in conform verify "machine --test-package oracle"; do \
 	        cargo mutants --package $${judged%% *} --test-package $$judged --output out/rust-mutants/$${judged%% *} $(MUTANTS) || code=$$?; \

@@ -197,8 +197,7 @@ pub fn general(
     let mut proved: Proved = hold.map(|verdict| (check(&words, verdict.subject), ANY_LENGTH)).collect();
     let all_hold = proved.len() == report.verdicts.len();
     let drawn = system.chart.system.as_ref();
-    let bounds = drawn.map_or(0, |drawn| drawn.bounds.len());
-    let bounds = bounds - system.ages.len();
+    let bounds = drawn.map_or(0, |drawn| drawn.bounds.len()) - system.ages.len();
     let ages = if bounds > 0 { aged(shell, sought, &mut watch)? } else { Vec::new() };
     let name = |aged: &Aged| aged.way.loaded.program.properties[0].name.clone();
     proved.extend(ages.iter().map(|aged| ((Some(PropertyKind::Invariant), name(aged)), EACH_WAY)));
