@@ -45,6 +45,7 @@ mod update;
 mod value;
 mod watch;
 mod weighed;
+mod words;
 mod work;
 
 pub use alternatives::{Alternatives, Bounds};

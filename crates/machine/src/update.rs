@@ -14,6 +14,7 @@ use program::{DomainId, RuleId};
 use crate::layout::LocationIndex;
 use crate::store::Store;
 use crate::value::Value;
+use crate::words::{swap, take};
 
 /// One update: the new value of a location, and the place of the rule. Compiled code writes updates by their layout.
 #[derive(Debug, Clone)]
@@ -268,10 +269,10 @@ impl Updates {
         if self.logged.len() < self.stamps.len() {
             self.logged.resize(self.stamps.len(), Logged::default());
         }
-        while self.stack.len() > unit.updates {
-            let Update { location, rule, value, previous } = self.stack.pop().expect("longer than the unit's start");
+        for update in self.stack[unit.updates..].iter_mut().rev() {
+            let Update { location, rule, previous, ref mut value } = *update;
             self.stamps[location as usize] = previous;
-            let before = std::mem::replace(&mut store.values[location as usize], value);
+            swap(&mut store.values[location as usize], value);
             self.time += 1;
             let time = self.time;
             let logged = &mut self.logged[location as usize];
@@ -280,9 +281,12 @@ impl Updates {
                 (entry.rule, entry.time) = (rule, time);
                 continue;
             }
-            let previous = std::mem::replace(logged, Logged { sequence: self.sequence, index: self.log.len() as u32 });
-            self.log.push(Overwritten { location, rule, before, time, previous });
+            let at = self.log.len();
+            let previous = std::mem::replace(logged, Logged { sequence: self.sequence, index: at as u32 });
+            self.log.push(Overwritten { location, rule, before: Value::Undef, time, previous });
+            swap(&mut self.log[at].before, value);
         }
+        self.stack.truncate(unit.updates);
         self.unit = unit.enclosing;
         for (domain, element) in &self.created[unit.created..] {
             store.carriers[domain.0 as usize].intermediate.push(element.clone());
@@ -301,7 +305,7 @@ impl Updates {
         merge.clear();
         while self.log.len() > sequence.log {
             let mut entry = self.log.pop().expect("longer than the sequence's start");
-            std::mem::swap(&mut store.values[entry.location as usize], &mut entry.before);
+            swap(&mut store.values[entry.location as usize], &mut entry.before);
             self.logged[entry.location as usize] = entry.previous;
             merge.push(entry); // `before` now holds the value after
         }
@@ -329,14 +333,16 @@ impl Updates {
     /// not that of [`Updates::end_sequence`].
     pub fn end_sequence_at_once(&mut self, sequence: Sequence, store: &mut Store) -> Result<(), Box<Clash>> {
         let mut outcome = Ok(());
-        while self.log.len() > sequence.log {
-            let entry = self.log.pop().expect("longer than the sequence's start");
-            let after = std::mem::replace(&mut store.values[entry.location as usize], entry.before);
+        let mut log = std::mem::take(&mut self.log);
+        for entry in log[sequence.log..].iter_mut().rev() {
+            swap(&mut store.values[entry.location as usize], &mut entry.before);
             self.logged[entry.location as usize] = entry.previous;
             if outcome.is_ok() {
-                outcome = self.push(entry.location, after, entry.rule);
+                outcome = self.push(entry.location, take(&mut entry.before), entry.rule);
             }
         }
+        log.truncate(sequence.log);
+        self.log = log;
         self.sequence = sequence.enclosing;
         self.forget_intermediate(sequence.created, store);
         outcome
@@ -363,10 +369,11 @@ impl Updates {
     /// Takes back every intermediate state and empties the update set; returns whether there was anything.
     pub fn roll_back(&mut self, store: &mut Store) -> bool {
         let any = !(self.stack.is_empty() && self.log.is_empty() && self.created.is_empty());
-        while let Some(entry) = self.log.pop() {
-            store.values[entry.location as usize] = entry.before;
+        for entry in self.log.iter_mut().rev() {
+            swap(&mut store.values[entry.location as usize], &mut entry.before);
             self.logged[entry.location as usize] = entry.previous;
         }
+        self.log.clear();
         self.sequence = 0;
         self.standing = false;
         self.forget_intermediate(0, store);

@@ -21,13 +21,13 @@ use syntax::{FileId, Span};
 use crate::environment::Choice;
 use crate::evaluate::collection;
 use crate::execute::{Core, Executor, Outcome};
-use crate::native::commit::is_same_scalar;
 use crate::native::comprehension::kind_of;
 use crate::native::context::Context;
 pub(super) use crate::native::gathered::{arrange, extend, items, make, position};
 use crate::native::memory::Collected;
-use crate::update::{Stamp, Update};
+use crate::update::Stamp;
 use crate::value::Value;
+use crate::words::is_same_scalar;
 use crate::work::INTERVAL;
 
 type Pointer = *mut Context;
@@ -84,20 +84,18 @@ pub(super) const MAY_LEAVE: u64 = 1 << 32;
 
 /// Adds an update of a scalar to the current unit.
 pub unsafe extern "C" fn push(context: Pointer, location: u64, tag: u64, payload: u64, rule: u64) -> i64 {
-    let words = [tag, payload];
     // SAFETY: *context*; the stamps and the values are as many as the locations, of which the code knows the number; the two
     // words are those of a scalar, which can be copied; below the capacity there is room on the stack.
     unsafe {
-        let value = &*std::ptr::from_ref(&words).cast::<Value>();
         let place = (*context).stamps.add(location as usize);
         let previous = *place;
         if u64::from(previous.unit) == (*context).unit {
-            return agrees(context, location as i64, value);
+            return agrees_with(context, location, tag, payload);
         }
         let unit = (*context).unit as u32;
         if (*context).terse != 0
             && rule & MAY_LEAVE != 0
-            && is_same_scalar(value, &*(*context).values.add(location as usize))
+            && is_same_scalar([tag, payload], &*(*context).values.add(location as usize))
         {
             *place = Stamp { unit, index: Stamp::UNCHANGED };
             return 0;
@@ -106,14 +104,27 @@ pub unsafe extern "C" fn push(context: Pointer, location: u64, tag: u64, payload
             return BAIL;
         }
         let index = (*context).held;
-        let update =
-            Update { location: location as u32, rule: RuleId(rule as u32), value: std::ptr::read(value), previous };
-        (*context).stack.add(index as usize).write(update);
+        // Field by field, as compiled code does.
+        let update = (*context).stack.add(index as usize);
+        (&raw mut (*update).location).write(location as u32);
+        (&raw mut (*update).rule).write(RuleId(rule as u32));
+        let value = (&raw mut (*update).value).cast::<u64>();
+        value.write(tag);
+        value.add(1).write(payload);
+        (&raw mut (*update).previous).write(previous);
         // The stack's growing moves no stamp.
         *place = Stamp { unit, index: index as u32 };
         (*context).held = index + 1;
     }
     0
+}
+
+/// The same as [`agrees`] of a scalar, by its words.
+#[cold]
+unsafe fn agrees_with(context: Pointer, location: u64, tag: u64, payload: u64) -> i64 {
+    let words = [tag, payload];
+    // SAFETY: as the caller promises; the two words are those of a scalar.
+    unsafe { agrees(context, location as i64, std::ptr::from_ref(&words).cast::<Value>()) }
 }
 
 /// Whether the current unit's update of a location has this value.
