@@ -3,6 +3,8 @@
 //! In: what the file says, the joint model. Out: the coupling and the faults of the file. Terms are checked in the joint model
 //! ([`crate::joint`]) as if the file were blank around them, so that faults stand at their places.
 
+mod environment;
+
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
@@ -13,7 +15,7 @@ use syntax::{Diagnostic, FileId, Severity, SourceFile, Sources, Span};
 
 use crate::coupling::{Conjunct, Coupling, Faulty, start};
 use crate::diagram::Diagrams;
-use crate::fault::{bad_coupling, input_not_coupled, vacuous};
+use crate::fault::{bad_coupling, vacuous};
 use crate::joint::{Joint, described, join, joint_name};
 use crate::written::{Part, Written, read};
 use crate::{ABSTRACT, CONCRETE, SIDES};
@@ -78,6 +80,8 @@ impl Builder {
             computed: Vec::new(),
             readers: Default::default(),
             waiting: false,
+            overflow: false,
+            fair: Vec::new(),
             variant: None,
             same: Vec::new(),
             free: Vec::new(),
@@ -100,6 +104,7 @@ impl Builder {
         let usual = Diagrams::usual(written.segment.is_some());
         self.coupling.diagrams = written.diagrams.clone().unwrap_or(usual);
         self.coupling.waiting = written.waiting;
+        self.coupling.overflow = written.overflow;
         if written.same.is_empty() && written.couples.is_empty() {
             self.same_by_default();
         }
@@ -123,6 +128,7 @@ impl Builder {
         if let Some(part) = &written.variant {
             self.variant(part, written.waiting);
         }
+        self.fairness(written);
         self.inputs(written);
         if !self.faults.is_empty() {
             return;
@@ -428,116 +434,6 @@ impl Builder {
         }
         found
     }
-
-    /// Which inputs of the abstract machine have which values.
-    fn inputs(&mut self, written: &Written) {
-        let [one, other] = self.coupling.programs.clone();
-        let mut left: Vec<FunctionId> = (0..)
-            .map(FunctionId)
-            .zip(&one.functions)
-            .filter(|(_, function)| is_input(function))
-            .map(|(id, _)| id)
-            .collect();
-        let mut take = |name: &str| {
-            let taken: Vec<FunctionId> = left.iter().copied().filter(|id| one.function(*id).name == name).collect();
-            left.retain(|id| !taken.contains(id));
-            taken
-        };
-        for part in &written.free {
-            match take(&part.text)[..] {
-                [] => self.no_input(part, &one),
-                _ => self.coupling.free.push(part.text.clone()),
-            }
-        }
-        for mapped in &written.inputs {
-            match take(&mapped.input.text)[..] {
-                [input] => self.mapped(mapped, input),
-                [] => self.no_input(&mapped.input, &one),
-                _ => {
-                    let message =
-                        format!("there are several inputs `{}`: only `free` can name them", mapped.input.text);
-                    let place = self.place(&mapped.input);
-                    self.fault(bad_coupling(place, message));
-                }
-            }
-        }
-        for id in left {
-            let function = one.function(id);
-            let (name, arity) = (&function.name, function.parameters.len());
-            let there = other.find_function(name, arity).filter(|there| is_input(other.function(*there)));
-            let read = one.terms.iter().any(|term| matches!(term, Term::Read { function, .. } if *function == id));
-            let Some(there) = there else {
-                if read {
-                    let fault =
-                        input_not_coupled(start(self.coupling.file), name, "is no input of the concrete machine");
-                    self.faults.push(fault);
-                }
-                continue;
-            };
-            if let Some([one, other]) = self.other_domain(id, there) {
-                let why = format!("is in {one}, and in the concrete machine in {other}");
-                self.faults.push(input_not_coupled(start(self.coupling.file), name, &why));
-                continue;
-            }
-            self.share(id, there);
-        }
-    }
-
-    fn share(&mut self, input: FunctionId, there: FunctionId) {
-        self.coupling.shared[ABSTRACT].entry(input).or_default().push(input.0);
-        self.coupling.shared[CONCRETE].entry(there).or_default().push(input.0);
-        self.coupling.inputs.push(self.coupling.programs[ABSTRACT].function(input).name.clone());
-    }
-
-    fn no_input(&mut self, part: &Part, program: &Program) {
-        let place = self.place(part);
-        let known: Vec<&str> =
-            program.functions.iter().filter(|function| is_input(function)).map(|function| &*function.name).collect();
-        let fault = bad_coupling(place, format!("the abstract machine has no input `{}` left to speak of", part.text));
-        let help = match known[..] {
-            [] => "it has no inputs".to_string(),
-            _ => format!("its inputs are: {}; each is said once", known.join(", ")),
-        };
-        self.faults.push(fault.with_help(help));
-    }
-
-    /// `input abstract.f = TERM;`
-    fn mapped(&mut self, mapped: &crate::written::Mapped, input: FunctionId) {
-        let [one, other] = self.coupling.programs.clone();
-        let arity = one.function(input).parameters.len();
-        let renamed = mapped.term.text.strip_prefix("concrete.");
-        let renamed = renamed.and_then(|name| other.find_function(name, arity));
-        if let Some(there) = renamed.filter(|there| is_input(other.function(*there))) {
-            match self.other_domain(input, there) {
-                None => return self.share(input, there),
-                // Of another domain it is a term like others.
-                Some(_) if arity == 0 => {}
-                Some([one, other]) => {
-                    let message = format!("the two inputs have different domains: {one}, and {other}");
-                    let place = self.place(&mapped.term);
-                    return self.fault(bad_coupling(place, message));
-                }
-            }
-        }
-        if arity > 0 {
-            let message = "an input with arguments can only be another input: input abstract.f = concrete.g;";
-            let place = self.place(&mapped.term);
-            return self.fault(bad_coupling(place, message));
-        }
-        let joint = &self.coupling.joint.program;
-        let Some(id) = joint.find_function(&joint_name(ABSTRACT, &mapped.input.text), 0) else { return };
-        let domain = joint.function(id).codomain;
-        let Some(formula) = self.term(&mapped.term, Some(domain)) else { return };
-        self.concrete_only(&formula, &mapped.term, "the input is given", "the concrete machine alone");
-        let mut reads_inputs = false;
-        for function in self.functions_of(&formula, CONCRETE) {
-            let reader = self.reader(CONCRETE, function);
-            reads_inputs |= self.coupling.programs[CONCRETE].reads_monitored(&reader);
-        }
-        self.coupling.shared[ABSTRACT].entry(input).or_default().push(input.0);
-        let known = if reads_inputs { &mut self.coupling.computed } else { &mut self.coupling.given };
-        known.push((input.0, formula));
-    }
 }
 
 /// The beginning of a text that is too long for a message.
@@ -549,8 +445,4 @@ fn shortened(words: &str) -> String {
 fn is_state(function: &program::Function) -> bool {
     use FunctionKind::{Controlled, Out, Shared};
     !function.library && matches!(function.kind, Controlled | Out | Shared)
-}
-
-fn is_input(function: &program::Function) -> bool {
-    !function.library && function.kind == FunctionKind::Monitored
 }

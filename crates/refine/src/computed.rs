@@ -1,6 +1,6 @@
-//! Inputs of the abstract machine that are terms over a step of the concrete one: its state and its inputs.
+//! Inputs of the abstract machine, and conditions of fairness, that are terms over a step of the concrete one: its state and its inputs.
 //!
-//! In: a step of the concrete machine that can be made. Out: the values of these inputs in it, as the joint model has them. The terms are
+//! In: a step of the concrete machine that can be made. Out: the values of these terms in it, as the joint model has them. The terms are
 //! evaluated in the joint model ([`crate::joint`]), whose functions are read in the step, one after the other as they are needed.
 //! INVARIANT: an input at which a term looks is one at which the step looks, so that each of its values is tried; a term that cannot be
 //! evaluated has a value that no input has.
@@ -13,7 +13,7 @@ use program::{DomainId, Expression, FunctionId, Program};
 use rustc_hash::FxHashMap;
 
 use crate::CONCRETE;
-use crate::coupling::Coupling;
+use crate::coupling::{Coupling, Fair, FairTerm, number_of_fair};
 use crate::joint::Bridge;
 
 /// By input of the abstract machine its value, or why there is none.
@@ -22,6 +22,8 @@ pub(crate) type Values = Vec<(u32, Result<Value, String>)>;
 /// See the module.
 pub(crate) struct Computed {
     terms: Vec<(u32, Expression)>,
+    /// Conditions of the concrete model itself.
+    own: Vec<(u32, Expression)>,
     /// A machine of the joint model.
     machine: Machine,
     joint: Arc<Program>,
@@ -33,7 +35,14 @@ pub(crate) struct Computed {
 impl Computed {
     /// Those of a coupling; none if it has no such inputs.
     pub fn of(coupling: &Coupling, limits: &Limits) -> Option<Computed> {
-        if coupling.computed.is_empty() {
+        let (mut terms, mut own) = (coupling.computed.clone(), Vec::new());
+        for (index, Fair { term, .. }) in coupling.fair.iter().enumerate().filter(|(_, fair)| fair.in_step) {
+            match term {
+                FairTerm::Said(_, formula) => terms.push((number_of_fair(index), formula.clone())),
+                FairTerm::Own(formula) => own.push((number_of_fair(index), formula.clone())),
+            }
+        }
+        if terms.is_empty() && own.is_empty() {
             return None;
         }
         let joint = Arc::new(coupling.joint.program.clone());
@@ -44,12 +53,12 @@ impl Computed {
         let of = coupling.joint.of.iter().filter(|(_, (side, _))| *side == CONCRETE);
         let readers = of.filter_map(|(id, (_, there))| Some((*id, coupling.readers[CONCRETE].get(there)?.clone())));
         let (readers, concrete) = (readers.collect(), Arc::clone(&coupling.programs[CONCRETE]));
-        Some(Computed { terms: coupling.computed.clone(), machine, joint, concrete, readers })
+        Some(Computed { terms, own, machine, joint, concrete, readers })
     }
 
     /// What may be read in a step.
     pub fn readers(&self) -> Vec<Expression> {
-        self.readers.values().cloned().collect()
+        self.readers.values().chain(self.own.iter().map(|(_, formula)| formula)).cloned().collect()
     }
 
     /// The values in a step.
@@ -57,7 +66,7 @@ impl Computed {
     /// # Errors
     /// The step cannot be gone through.
     pub fn values(&mut self, step: &mut Reading<'_>, bridge: &Bridge) -> Result<Values, Fault> {
-        let Computed { terms, machine, joint, concrete, readers } = self;
+        let Computed { terms, own, machine, joint, concrete, readers } = self;
         machine.forget_inputs();
         let mut values = Values::new();
         for (input, term) in terms {
@@ -67,6 +76,13 @@ impl Computed {
                 return Err(trouble);
             }
             values.push((*input, value.map_err(|fault| fault.show(joint).to_string())));
+        }
+        for (number, formula) in own {
+            let value = match step.value(formula, &[]) {
+                Err(fault) if !fault.kind.is_of_the_model() => return Err(fault),
+                value => value.map_err(|fault| fault.show(concrete).to_string()),
+            };
+            values.push((*number, value));
         }
         Ok(values)
     }

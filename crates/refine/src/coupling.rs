@@ -27,6 +27,36 @@ pub(crate) enum Conjunct {
     Term { text: String, formula: Expression },
 }
 
+/// A condition that is true in infinitely many steps of the runs that count.
+#[derive(Debug, Clone)]
+pub(crate) struct Fair {
+    pub term: FairTerm,
+    /// It looks at inputs of the step.
+    pub in_step: bool,
+}
+
+/// What a [`Fair`] condition is.
+#[derive(Debug, Clone)]
+pub(crate) enum FairTerm {
+    /// A term of the joint model over the concrete machine, and its text in the coupling.
+    Said(String, Expression),
+    /// A `JUSTICE` of the concrete model.
+    Own(Expression),
+}
+
+/// From this number on conditions of fairness are numbered as if they were inputs of the abstract machine.
+const FAIR: u32 = 1 << 31;
+
+/// The number of a condition where inputs have theirs.
+pub(crate) fn number_of_fair(index: usize) -> u32 {
+    FAIR + index as u32
+}
+
+/// Whether the number of an input is that of a condition of fairness.
+pub(crate) fn is_fair(input: u32) -> bool {
+    input >= FAIR
+}
+
 /// Why a text is no coupling of two machines.
 #[derive(Debug)]
 pub struct Faulty {
@@ -54,6 +84,10 @@ pub struct Coupling {
     pub(crate) readers: [FxHashMap<FunctionId, Expression>; 2],
     /// The concrete machine may go on for ever without a step of the abstract one.
     pub waiting: bool,
+    /// Runs of the concrete machine are looked at as far as its numbers have 64 bits.
+    pub overflow: bool,
+    /// What is true again and again in the runs of the concrete machine by which it is asked whether the abstract one stands still.
+    pub(crate) fair: Vec<Fair>,
     /// What decreases with each diagram without an abstract step, as the file has it.
     pub(crate) variant: Option<(String, Expression)>,
     /// The functions that have equal values by default or by `same`.
@@ -82,19 +116,32 @@ impl Coupling {
     pub fn conjunct(&self, index: usize) -> String {
         match &self.conjuncts[index] {
             Conjunct::Same { name, .. } => format!("abstract.{name} = concrete.{name}"),
-            Conjunct::Term { text, .. } => text.split_whitespace().collect::<Vec<_>>().join(" "),
+            Conjunct::Term { text, .. } => in_a_line(text),
         }
     }
 
     /// The variant as a user would write it.
     pub fn variant(&self) -> Option<String> {
-        self.variant.as_ref().map(|(text, _)| text.split_whitespace().collect::<Vec<_>>().join(" "))
+        self.variant.as_ref().map(|(text, _)| in_a_line(text))
+    }
+
+    /// The conditions of fairness that the coupling says, as a user would write them.
+    pub fn fair(&self) -> Vec<String> {
+        let said = self.fair.iter().filter_map(|fair| match &fair.term {
+            FairTerm::Said(text, _) => Some(in_a_line(text)),
+            FairTerm::Own(_) => None,
+        });
+        said.collect()
     }
 
     /// How many conjuncts there are.
     pub fn conjuncts(&self) -> usize {
         self.conjuncts.len()
     }
+}
+
+fn in_a_line(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
 /// The beginning of a file.

@@ -10,7 +10,8 @@ use machine::{Location, Show, Value};
 use rustc_hash::FxHashMap;
 
 use crate::behind::Broken;
-use crate::game::{Lost, Solution};
+use crate::coupling::is_fair;
+use crate::game::{Alive, Lost, Solution};
 use crate::product::{Answers, Deed, Node, NodeId, PairId, Product};
 use crate::side::{Move, StateId};
 use crate::why::{Differs, Part, why};
@@ -76,9 +77,6 @@ pub struct Refutation {
     /// How they end.
     pub ended: Ended,
 }
-
-/// What decides whether a pair counts as alive.
-type Alive<'a> = &'a dyn Fn(PairId, u32) -> bool;
 
 /// How long the abstract machine survives from a node that it loses; none if it wins.
 fn survival(
@@ -178,15 +176,18 @@ fn tell(product: &mut Product<'_>, side: usize, from: StateId, made: &Move) -> O
 /// The runs that show why the game is lost.
 pub(crate) fn refutation(product: &mut Product<'_>, solution: &Solution) -> Refutation {
     let mut telling = Telling { product, runs: Default::default(), segments: Vec::new() };
-    // The pairs at the ends of diagrams, from the first.
-    let mut visited: Vec<PairId> = Vec::new();
+    // The pairs at the ends of diagrams, from the first, each with the condition of fairness that is to be met next.
+    let mut visited: Vec<(PairId, usize)> = Vec::new();
     let mut at: Option<PairId> = None;
+    let mut fair = 0;
     loop {
         let product = &*telling.product;
         let lost = at.and_then(|pair| solution.lost[pair as usize]);
-        let survives = |pair: PairId, m: u32| match lost {
-            None => solution.lost[pair as usize].is_none(),
-            Some(lost) => solution.outlives(pair, m, lost),
+        let survives = |end: &Answers, pair: PairId, m: u32| match (at, lost) {
+            (Some(at), Some(lost)) => {
+                solution.outlives(pair, m, lost) || solution.evades(product, end, (at, pair), m, fair)
+            }
+            _ => solution.lost[pair as usize].is_none(),
         };
         let node = match at {
             None => product.root,
@@ -229,11 +230,14 @@ pub(crate) fn refutation(product: &mut Product<'_>, solution: &Solution) -> Refu
                 telling.segments.push(Segment { m: m as usize, n: steps.len() });
             }
         }
-        if let Some(turn) = visited.iter().position(|other| *other == pair) {
+        if m == 0 && end.from.is_some() && !solution.turns.is_empty() && telling.product.meets(&end, fair) {
+            fair = (fair + 1) % solution.turns.len();
+        }
+        if let Some(turn) = visited.iter().position(|other| *other == (pair, fair)) {
             let Telling { runs, segments, .. } = telling;
             return Refutation { runs, segments, ended: Ended::Waits(turn) };
         }
-        visited.push(pair);
+        visited.push((pair, fair));
         at = Some(pair);
     }
 }
@@ -303,6 +307,9 @@ fn unmatched(product: &mut Product<'_>, end: &Answers) -> Ended {
     let program = &product.judge.coupling.joint.program;
     for (location, values) in end.reads.iter() {
         let (input, arguments) = &product.inputs.told[*location as usize];
+        if is_fair(*input) {
+            continue;
+        }
         let name = &product.judge.coupling.programs[ABSTRACT].functions[*input as usize].name;
         let shown: Vec<String> = arguments.iter().map(|value| value.show(program).to_string()).collect();
         let shown = if shown.is_empty() { name.clone() } else { format!("{name}({})", shown.join(",")) };
@@ -352,7 +359,7 @@ pub(crate) fn no_initial_pair(product: &mut Product<'_>) -> Refutation {
 
 /// How often the answers found use each diagram.
 pub(crate) fn used(product: &Product<'_>, solution: &Solution) -> BTreeMap<(u32, u32), u64> {
-    let alive = |pair: PairId, _: u32| solution.lost[pair as usize].is_none();
+    let alive = |_: &Answers, pair: PairId, _: u32| solution.lost[pair as usize].is_none();
     let mut used = BTreeMap::new();
     let mut seen = vec![false; product.pairs.len()];
     let mut queue = VecDeque::from([product.root]);
@@ -365,7 +372,7 @@ pub(crate) fn used(product: &Product<'_>, solution: &Solution) -> BTreeMap<(u32,
             Node::Deeds(deeds) => queue.extend(deeds.iter().map(|(_, node)| *node)),
             Node::Choice(ways) => queue.extend(ways.iter().find(|node| solution.wins(product, **node, &alive))),
             Node::Answers(end) => {
-                let fit = end.answers.iter().filter(|(pair, m)| alive(*pair, *m));
+                let fit = end.answers.iter().filter(|(pair, m)| alive(end, *pair, *m));
                 let Some((pair, m)) = fit.min_by_key(|(_, m)| (*m == 0, *m)) else { continue };
                 if end.from.is_some() {
                     *used.entry((*m, end.n)).or_default() += 1;

@@ -2,7 +2,9 @@
 //!
 //! In: a [`Product`]. Out: a [`Solution`]: which pairs are lost, in which order, and how. A pair is lost if the concrete machine can do
 //! what only lost pairs answer (the greatest fixpoint), or if it can go on for ever while the abstract machine makes no step (the least
-//! fixpoint within it: between any two diagrams with an abstract step there are finitely many without). INVARIANT: what is not known
+//! fixpoint within it: between any two diagrams with an abstract step there are finitely many without). With conditions of fairness it
+//! has to meet each of them again and again meanwhile; the abstract machine may stand still as long as some condition is not met (a
+//! greatest fixpoint for each condition within the least one: Piterman, Pnueli and Sa'ar, 2006). INVARIANT: what is not known
 //! counts for the abstract machine if the question is whether the refinement fails, and against it if the question is whether it holds.
 
 use std::collections::VecDeque;
@@ -27,6 +29,8 @@ pub(crate) struct Rules {
     pub hopeful: bool,
     /// The abstract machine may make no step for ever.
     pub waiting: bool,
+    /// It may if some condition of fairness is not met again and again.
+    pub fair: bool,
     /// The fewest and the most abstract steps of a diagram, and the most concrete ones; besides what the coupling allows.
     pub least_m: u32,
     pub most_m: u32,
@@ -37,7 +41,7 @@ impl Rules {
     /// Those of the coupling.
     pub fn of(product: &Product<'_>, hopeful: bool) -> Rules {
         let waiting = product.judge.coupling.waiting;
-        Rules { hopeful, waiting, least_m: 0, most_m: u32::MAX, most_n: u32::MAX }
+        Rules { hopeful, waiting, fair: true, least_m: 0, most_m: u32::MAX, most_n: u32::MAX }
     }
 
     fn allow(&self, end: &Answers, m: u32) -> bool {
@@ -50,6 +54,9 @@ impl Rules {
 pub(crate) struct Solution {
     /// By pair.
     pub lost: Vec<Option<Lost>>,
+    /// By condition of fairness and pair: of pairs that are lost since the abstract machine waits for ever, how soon the concrete
+    /// machine can meet the condition, in an order without a unit.
+    pub turns: Vec<Vec<u32>>,
     /// Whether each initial state is answered.
     pub won: bool,
     /// What was played by.
@@ -58,8 +65,23 @@ pub(crate) struct Solution {
 
 impl Solution {
     /// Whether a node is won, given which pairs are: after so many abstract steps.
-    pub fn wins(&self, product: &Product<'_>, node: NodeId, alive: &dyn Fn(PairId, u32) -> bool) -> bool {
+    pub fn wins(&self, product: &Product<'_>, node: NodeId, alive: Alive<'_>) -> bool {
         wins(product, node, &self.rules, alive, &mut Known::default())
+    }
+
+    /// Whether the abstract machine waits from one pair to another while a condition of fairness is not met and comes no nearer.
+    pub fn evades(
+        &self,
+        product: &Product<'_>,
+        end: &Answers,
+        (from, to): (PairId, PairId),
+        m: u32,
+        fair: usize,
+    ) -> bool {
+        let Some(turns) = self.turns.get(fair).filter(|_| m == 0) else { return false };
+        let [before, after] = [from, to].map(|pair| self.lost[pair as usize]);
+        let stays = before.is_some_and(|lost| lost.waits) && before == after;
+        stays && !product.meets(end, fair) && turns[to as usize] >= turns[from as usize]
     }
 
     /// Whether a pair was still alive when this one was lost.
@@ -72,16 +94,13 @@ impl Solution {
     }
 }
 
+/// Whether a pair counts as won, at the end of a diagram with so many abstract steps.
+pub(crate) type Alive<'a> = &'a dyn Fn(&Answers, PairId, u32) -> bool;
+
 /// What nodes of long diagrams came to: several ways may lead to one.
 type Known = FxHashMap<NodeId, bool>;
 
-fn wins(
-    product: &Product<'_>,
-    node: NodeId,
-    rules: &Rules,
-    alive: &dyn Fn(PairId, u32) -> bool,
-    known: &mut Known,
-) -> bool {
+fn wins(product: &Product<'_>, node: NodeId, rules: &Rules, alive: Alive<'_>, known: &mut Known) -> bool {
     if let Some(known) = known.get(&node) {
         return *known;
     }
@@ -89,7 +108,7 @@ fn wins(
         Node::Deeds(deeds) => deeds.iter().all(|(_, node)| wins(product, *node, rules, alive, known)),
         Node::Choice(ways) => ways.iter().any(|node| wins(product, *node, rules, alive, known)),
         Node::Answers(end) => {
-            let answered = |(pair, m): &(PairId, u32)| rules.allow(end, *m) && alive(*pair, *m);
+            let answered = |(pair, m): &(PairId, u32)| rules.allow(end, *m) && alive(end, *pair, *m);
             end.answers.iter().any(answered) || (rules.hopeful && end.unclear.is_some())
         }
         Node::Fault => false,
@@ -134,6 +153,7 @@ pub(crate) fn solve(product: &Product<'_>, rules: Rules) -> Solution {
         });
     }
     let mut lost: Vec<Option<Lost>> = vec![None; count];
+    let mut turns = vec![vec![0; count]; if rules.fair { product.fair() } else { 0 }];
     let mut rank = 0;
     let mut queue: VecDeque<PairId> = (0..count as PairId).collect();
     let mut queued = vec![true; count];
@@ -145,7 +165,7 @@ pub(crate) fn solve(product: &Product<'_>, rules: Rules) -> Solution {
             }
             let won = match product.trees[pair as usize] {
                 Some(tree) => {
-                    wins(product, tree, &rules, &|pair, _| lost[pair as usize].is_none(), &mut Known::default())
+                    wins(product, tree, &rules, &|_, pair, _| lost[pair as usize].is_none(), &mut Known::default())
                 }
                 None => rules.hopeful,
             };
@@ -160,7 +180,7 @@ pub(crate) fn solve(product: &Product<'_>, rules: Rules) -> Solution {
             }
         }
         let waiting = match ever_waits && !rules.waiting {
-            true => waiting(product, &rules, &lost, &parents),
+            true => Waiting::new(product, &rules, &lost, &parents).pairs(&mut turns),
             false => Vec::new(),
         };
         if waiting.is_empty() {
@@ -176,33 +196,100 @@ pub(crate) fn solve(product: &Product<'_>, rules: Rules) -> Solution {
             }
         }
     }
-    let won = wins(product, product.root, &rules, &|pair, _| lost[pair as usize].is_none(), &mut Known::default());
-    Solution { lost, won, rules }
+    let won = wins(product, product.root, &rules, &|_, pair, _| lost[pair as usize].is_none(), &mut Known::default());
+    Solution { lost, turns, won, rules }
 }
 
-/// The pairs from which the concrete machine can go on for ever while the abstract one makes no step.
-fn waiting(product: &Product<'_>, rules: &Rules, lost: &[Option<Lost>], parents: &[Vec<PairId>]) -> Vec<PairId> {
-    let count = product.pairs.len();
-    let mut moves = vec![false; count];
-    let mut queue: VecDeque<PairId> = (0..count as PairId).filter(|pair| lost[*pair as usize].is_none()).collect();
-    while let Some(pair) = queue.pop_front() {
-        if moves[pair as usize] || lost[pair as usize].is_some() {
-            continue;
-        }
-        let won = match product.trees[pair as usize] {
-            None => true,
-            Some(tree) => {
-                let alive = |pair: PairId, m: u32| match m {
-                    0 => moves[pair as usize],
-                    _ => lost[pair as usize].is_none(),
-                };
-                wins(product, tree, rules, &alive, &mut Known::default())
+/// Which pairs are lost since the abstract machine can only wait for ever.
+struct Waiting<'w, 'c> {
+    product: &'w Product<'c>,
+    rules: &'w Rules,
+    lost: &'w [Option<Lost>],
+    parents: &'w [Vec<PairId>],
+    /// By pair: the next abstract step comes, or some condition of fairness is no longer met.
+    moves: Vec<bool>,
+}
+
+impl<'w, 'c> Waiting<'w, 'c> {
+    fn new(
+        product: &'w Product<'c>,
+        rules: &'w Rules,
+        lost: &'w [Option<Lost>],
+        parents: &'w [Vec<PairId>],
+    ) -> Waiting<'w, 'c> {
+        Waiting { product, rules, lost, parents, moves: vec![false; product.pairs.len()] }
+    }
+
+    /// The pairs from which the concrete machine can go on for ever, and meet each condition of fairness again and again, while the
+    /// abstract one makes no step. `turns` receives of each how soon.
+    fn pairs(mut self, turns: &mut [Vec<u32>]) -> Vec<PairId> {
+        let all: Vec<PairId> = (0..self.product.pairs.len() as PairId).collect();
+        let mut grown = self.open(&all);
+        loop {
+            self.advance(grown);
+            grown = Vec::new();
+            for (fair, turns) in turns.iter_mut().enumerate() {
+                let kept = self.unfair(fair, turns);
+                kept.iter().for_each(|pair| self.moves[*pair as usize] = true);
+                grown.extend(kept.iter().flat_map(|pair| &self.parents[*pair as usize]));
             }
-        };
-        if won {
-            moves[pair as usize] = true;
-            queue.extend(parents[pair as usize].iter().filter(|parent| !moves[**parent as usize]));
+            if grown.is_empty() {
+                return self.open(&all);
+            }
         }
     }
-    (0..count as PairId).filter(|pair| lost[*pair as usize].is_none() && !moves[*pair as usize]).collect()
+
+    /// Those of these pairs of which it is open.
+    fn open(&self, pairs: &[PairId]) -> Vec<PairId> {
+        let open = |pair: &PairId| self.lost[*pair as usize].is_none() && !self.moves[*pair as usize];
+        pairs.iter().copied().filter(open).collect()
+    }
+
+    /// Whether the abstract machine can bring about from a pair what counts as good at the end of a diagram without a step of it, or a
+    /// step to a pair that is not lost.
+    fn forces(&self, pair: PairId, good: &dyn Fn(&Answers, PairId) -> bool) -> bool {
+        let Some(tree) = self.product.trees[pair as usize] else { return true };
+        let alive = |end: &Answers, pair: PairId, m: u32| match m {
+            0 => self.moves[pair as usize] || good(end, pair),
+            _ => self.lost[pair as usize].is_none(),
+        };
+        wins(self.product, tree, self.rules, &alive, &mut Known::default())
+    }
+
+    /// Finds more pairs that lead to such from which it moves: the least fixpoint, begun at these pairs.
+    fn advance(&mut self, begin: Vec<PairId>) {
+        let mut queue = VecDeque::from(begin);
+        while let Some(pair) = queue.pop_front() {
+            if self.open(&[pair]).is_empty() || !self.forces(pair, &|_, _| false) {
+                continue;
+            }
+            self.moves[pair as usize] = true;
+            queue.extend(self.open(&self.parents[pair as usize]));
+        }
+    }
+
+    /// The pairs from which the abstract machine can wait so that a condition is met no more: the greatest fixpoint. Of the others `turns`
+    /// receives when they dropped out.
+    fn unfair(&self, fair: usize, turns: &mut [u32]) -> Vec<PairId> {
+        let all: Vec<PairId> = (0..self.product.pairs.len() as PairId).collect();
+        let candidates = self.open(&all);
+        let mut kept = vec![false; all.len()];
+        candidates.iter().for_each(|pair| kept[*pair as usize] = true);
+        let mut queue = VecDeque::from(candidates.clone());
+        let mut turn = 0;
+        while let Some(pair) = queue.pop_front() {
+            if !kept[pair as usize] {
+                continue;
+            }
+            let unmet = |end: &Answers, next: PairId| kept[next as usize] && !self.product.meets(end, fair);
+            if self.forces(pair, &unmet) {
+                continue;
+            }
+            kept[pair as usize] = false;
+            turn += 1;
+            turns[pair as usize] = turn;
+            queue.extend(self.parents[pair as usize].iter().filter(|parent| kept[**parent as usize]));
+        }
+        candidates.into_iter().filter(|pair| kept[*pair as usize]).collect()
+    }
 }

@@ -83,7 +83,7 @@ fn one(file: FileId, statement: &Statement, out: &mut String) -> Result<(), Box<
     out.push_str(&statement.word.text);
     out.push(' ');
     match statement.word.text.as_str() {
-        "couple" | "segment" | "variant" => term(file, &body.text, body.span.start as usize, out)?,
+        "couple" | "fair" | "segment" | "variant" => term(file, &body.text, body.span.start as usize, out)?,
         "input" => {
             let (input, value) = body.text.split_once('=').unwrap_or((&body.text, ""));
             let start = body.span.end as usize - value.trim_start().len();

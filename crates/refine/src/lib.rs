@@ -14,6 +14,7 @@ mod coupling;
 mod determined;
 mod diagram;
 mod evidence;
+mod fair;
 mod fault;
 mod formulas;
 mod game;

@@ -16,6 +16,7 @@ use machine::{Location, Value};
 use program::FunctionId;
 use rustc_hash::{FxHashMap, FxHashSet};
 
+use crate::coupling::{FairTerm, number_of_fair};
 use crate::judge::Judge;
 use crate::side::{Goal, Inputs, Label, Move, Side, StateId, Stopped, Unmade};
 use crate::{ABSTRACT, CONCRETE};
@@ -121,6 +122,8 @@ pub(crate) struct Product<'c> {
     pub initial: Vec<(Label, StateId, Start)>,
     /// The concrete machine's initial states.
     pub begun: Vec<(Label, StateId, Start)>,
+    /// By condition of fairness: what stands in the label of a step in which it is true.
+    met: Vec<(u32, u32)>,
 }
 
 /// A state, the place of the one before it, and the step between them.
@@ -135,6 +138,8 @@ impl<'c> Product<'c> {
         let bridges = &judge.coupling.joint.bridges;
         let initial = sides[ABSTRACT].initial(&mut inputs, &bridges[ABSTRACT]);
         let begun = sides[CONCRETE].initial(&mut inputs, &bridges[CONCRETE]);
+        let fair = (0..judge.coupling.fair.len()).map(number_of_fair);
+        let met = fair.map(|number| inputs.number(number, Vec::new(), Value::Boolean(true))).collect();
         let mut product = Product {
             sides,
             judge,
@@ -147,6 +152,7 @@ impl<'c> Product<'c> {
             at: 0,
             initial,
             begun,
+            met,
         };
         let mut deeds = Vec::new();
         for (label, state, start) in product.begun.clone() {
@@ -193,7 +199,32 @@ impl<'c> Product<'c> {
             let value = value.unwrap_or_else(machine::Value::string);
             given.push(self.inputs.number(*input, Vec::new(), value));
         }
+        for (index, fair) in coupling.fair.iter().enumerate().filter(|(_, fair)| !fair.in_step) {
+            let value = match &fair.term {
+                FairTerm::Said(_, formula) => self.judge.evaluate(&mut self.sides, formula, [0, state]).0.ok(),
+                FairTerm::Own(formula) => self.sides[CONCRETE].evaluate(formula, state).ok(),
+            };
+            // What cannot be evaluated is not true.
+            let is_met = Value::Boolean(value == Some(Value::Boolean(true)));
+            given.push(self.inputs.number(number_of_fair(index), Vec::new(), is_met));
+        }
         given
+    }
+
+    /// How many conditions of fairness there are.
+    pub fn fair(&self) -> usize {
+        self.met.len()
+    }
+
+    /// Whether a condition of fairness was true in some step of a diagram.
+    pub fn meets(&self, end: &Answers, fair: usize) -> bool {
+        let (place, met) = self.met[fair];
+        end.reads.get(&place).is_some_and(|values| values.contains(&met))
+    }
+
+    /// Whether a condition of fairness is true in a step.
+    pub fn meets_in(&self, made: &Move, fair: usize) -> bool {
+        made.label.contains(&self.met[fair])
     }
 
     /// The steps of a concrete state.

@@ -13,6 +13,7 @@ use crate::bounded::of_proof;
 use crate::computed::Computed;
 use crate::coupling::Coupling;
 use crate::evidence;
+use crate::fair::has_fair_run;
 use crate::game::{Rules, solve};
 use crate::judge::Judge;
 use crate::limited::with_shared_inputs;
@@ -104,6 +105,7 @@ pub(crate) fn begun<'c>(
         };
         made.shared = coupling.shared[side].clone();
         made.most = options.max_steps;
+        made.ends_at_overflow = side == CONCRETE && coupling.overflow;
         sides.push(made);
     }
     let Ok(sides) = <[Side; 2]>::try_from(sides) else { unreachable!("there are two sides") };
@@ -226,8 +228,11 @@ fn attempt(
     let mut assumed = Vec::new();
     for side in [ABSTRACT, CONCRETE] {
         let properties = &coupling.programs[side].properties;
-        let invars = properties.iter().filter(|property| property.kind == PropertyKind::Invar);
-        assumed.extend(invars.map(|property| Assumed {
+        let is_assumed = |kind: PropertyKind| {
+            kind == PropertyKind::Invar || (kind == PropertyKind::Justice && side == CONCRETE && !coupling.waiting)
+        };
+        let said = properties.iter().filter(|property| is_assumed(property.kind));
+        assumed.extend(said.map(|property| Assumed {
             side,
             name: property.name.clone(),
             from: From::Text(property.span),
@@ -310,6 +315,9 @@ fn says(product: &mut Product<'_>, is_complete: bool) -> Says {
     }
     if is_complete && product.sides[CONCRETE].steps.1 == 0 {
         return Says::Nothing(Vacuous::NoStep);
+    }
+    if is_complete && product.fair() > 0 && !has_fair_run(product) {
+        return Says::Nothing(Vacuous::NoFairRun);
     }
     let [one, other] = [ABSTRACT, CONCRETE].map(|side| product.sides[side].count());
     if product.judge.distinguishes || one < 2 || other < 2 {

@@ -58,6 +58,8 @@ pub enum Vacuous {
     NoInitialPair(Box<Refutation>),
     /// The concrete machine makes no step that changes its state.
     NoStep,
+    /// No run of the concrete machine is fair.
+    NoFairRun,
     /// The assumptions leave the concrete machine no step.
     NoneLeft,
     /// The relation holds of every two states.

@@ -132,6 +132,8 @@ pub(crate) struct Side {
     pub steps: (u64, u64),
     /// The most steps of one state that are gone through.
     pub most: u64,
+    /// A number beyond 64 bits ends a run, and is no fault.
+    pub ends_at_overflow: bool,
     /// If a run is followed: its steps, which are all that are made.
     followed: Option<Followed>,
 }
@@ -175,6 +177,7 @@ impl Side {
             looked_at: BTreeMap::new(),
             steps: (0, 0),
             most: u64::MAX,
+            ends_at_overflow: false,
             followed: None,
         })
     }
@@ -413,6 +416,7 @@ impl Side {
                 Outcome::Fault(fault) if matches!(fault.kind, FaultKind::Interrupted(_)) => {
                     return Err(Stopped::Interrupted);
                 }
+                Outcome::Fault(fault) if self.is_end(&fault) => continue,
                 Outcome::Fault(fault) => Goal::Fault(fault.show(&self.program).to_string()),
                 Outcome::Unbounded(unbounded) => Goal::Open(unbounded),
                 Outcome::Excluded => continue,
@@ -423,6 +427,11 @@ impl Side {
             }
         }
         Ok(moves)
+    }
+
+    /// Whether a fault only says that runs are looked at no further.
+    fn is_end(&self, fault: &Fault) -> bool {
+        self.ends_at_overflow && matches!(fault.kind, FaultKind::Overflow { .. })
     }
 
     /// The value of a function in a state.
@@ -438,6 +447,19 @@ impl Side {
         let value = explorer.evaluate_with(&readers[&function], arguments, &states[state as usize])?;
         self.reads[state as usize].insert(key, value.clone());
         Ok(value)
+    }
+
+    /// The value of a term of this machine in a state.
+    ///
+    /// # Errors
+    /// What evaluation meets.
+    pub fn evaluate(&mut self, formula: &Expression, state: StateId) -> Result<Value, Fault> {
+        self.explorer.evaluate(formula, &self.states[state as usize])
+    }
+
+    /// The steps of a state, if it was looked at.
+    pub fn made(&self, state: StateId) -> Option<&[Move]> {
+        self.moves[state as usize].as_deref()
     }
 
     /// The locations of a function that have a value in a state, in canonical order.

@@ -45,7 +45,7 @@ impl Transfer {
         let stands = stands && diagrams.0.iter().any(|diagram| *diagram.m.start() == 0);
         let properties = &coupling.programs[CONCRETE].properties;
         // An assumption may leave a state without a step.
-        let goes_on = !properties.iter().any(|property| property.kind == PropertyKind::Invar);
+        let goes_on = !coupling.overflow && !properties.iter().any(|property| property.kind == PropertyKind::Invar);
         let ends = if diagrams.most_concrete() == 1 { Ends::Every } else { Ends::Some };
         let each = diagrams.0.iter().all(|diagram| *diagram.m.end() <= 1);
         let live = each && goes_on && !(stands && coupling.waiting);
@@ -59,13 +59,16 @@ impl Transfer {
         let is_won = |product: &Product<'_>, rules: Rules| solve(product, rules).won;
         let single = Rules { most_n: 1, ..rules };
         let segments = product.judge.coupling.segment.is_some();
-        let (ends, rules) = match is_won(product, single) {
+        // A run that ends within a diagram, where assumptions leave no step, passes through states that correspond to nothing.
+        let breaks_off = product.sides[CONCRETE].has_dead_end() && product.judge.coupling.diagrams.most_concrete() > 1;
+        let (ends, rules) = match !breaks_off && is_won(product, single) {
             true => (Ends::Every, single),
             false if segments && product.judge.marks_clearly(&mut product.sides) => (Ends::Segments, rules),
             false => (Ends::Some, rules),
         };
         let each = Rules { most_m: 1, ..rules };
-        let live = Rules { waiting: false, ..each };
+        // Formulas of the concrete model are about the runs that are fair by its own words, not by those of the coupling.
+        let live = Rules { waiting: false, fair: product.judge.coupling.fair().is_empty(), ..each };
         let exact = Rules { least_m: 1, ..live };
         // A state without a step is one in which a run stays for ever; the proof says nothing of that.
         let goes_on = !product.sides[CONCRETE].has_dead_end();

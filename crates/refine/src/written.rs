@@ -47,20 +47,25 @@ pub struct Written {
     pub free: Vec<Part>,
     /// The concrete machine may go on for ever without a step of the abstract one.
     pub waiting: bool,
+    /// Runs of the concrete machine are looked at as far as its numbers have 64 bits.
+    pub overflow: bool,
+    /// What is true again and again in the runs of the concrete machine that count.
+    pub fair: Vec<Part>,
     /// What decreases while the abstract machine makes no step.
     pub variant: Option<Part>,
 }
 
 /// The words that statements begin with.
-pub const WORDS: [&str; 10] =
-    ["abstract", "allow", "concrete", "couple", "diagrams", "free", "input", "same", "segment", "variant"];
+pub const WORDS: [&str; 11] =
+    ["abstract", "allow", "concrete", "couple", "diagrams", "fair", "free", "input", "same", "segment", "variant"];
 
 impl Written {
     /// A file that says nothing: the default coupling.
     pub fn nothing(file: FileId) -> Written {
         let (models, same, couples) = ([None, None], Vec::new(), Vec::new());
         let (segment, diagrams, inputs, free, variant) = (None, None, Vec::new(), Vec::new(), None);
-        Written { file, models, same, couples, segment, diagrams, inputs, free, waiting: false, variant }
+        let (waiting, overflow, fair) = (false, false, Vec::new());
+        Written { file, models, same, couples, segment, diagrams, inputs, free, waiting, overflow, fair, variant }
     }
 }
 
@@ -228,6 +233,7 @@ impl<'t> Reader<'t> {
                 written.models[side] = Some(Part { text: path.to_string(), span: body.span });
             }
             "couple" => written.couples.push(body),
+            "fair" => written.fair.push(body),
             "segment" => {
                 again(written.segment.is_some())?;
                 written.segment = Some(body);
@@ -248,11 +254,15 @@ impl<'t> Reader<'t> {
                 }
             }
             "allow" => {
-                again(written.waiting)?;
-                if body.text != "waiting" {
-                    return Err(bad_coupling(body.span, "only waiting can be allowed: allow waiting;"));
-                }
-                written.waiting = true;
+                let allowed = match &*body.text {
+                    "waiting" => &mut written.waiting,
+                    "overflow" => &mut written.overflow,
+                    _ => {
+                        let message = "only waiting and overflow can be allowed: allow waiting; or allow overflow;";
+                        return Err(bad_coupling(body.span, message));
+                    }
+                };
+                again(std::mem::replace(allowed, true))?;
             }
             "free" => {
                 for (from, to) in split(&body.text, ',') {
@@ -343,10 +353,12 @@ mod tests {
         check("free concrete.f;", 5, "an input of the abstract machine is expected: abstract.NAME");
         check("input abstract.f;", 6, "an input and its value are expected: input abstract.f = concrete.g;");
         check("abstract A.asm;", 9, "the path of a model is expected: abstract \"Model.asm\";");
+        check("fair;", 0, "the statement `fair` says nothing");
         check("segment a; segment b;", 11, "`segment` is said twice");
         check("variant 1; variant 2;", 11, "`variant` is said twice");
         check("diagrams 1:0;", 9, "a diagram has at least one step of the concrete machine: `m:n` with n from 1");
-        check("allow faults;", 6, "only waiting can be allowed: allow waiting;");
+        check("allow faults;", 6, "only waiting and overflow can be allowed: allow waiting; or allow overflow;");
+        check("allow waiting; allow overflow; allow waiting;", 31, "`allow` is said twice");
         check("/* a", 0, "this comment does not end");
         check("€;", 0, "`€` begins no statement");
     }

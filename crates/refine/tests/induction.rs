@@ -133,6 +133,33 @@ fn counters_that_no_search_ends() {
     stuck(&endless, &endless, "same n;", "step 1 made");
 }
 
+/// A number that leaves 64 bits ends a run where that is allowed, and nothing else does.
+#[test]
+fn a_counter_without_end() {
+    let count = |rule: &str| {
+        let signature = "controlled n: Integer controlled m: Integer";
+        machine(signature, &format!("main rule r_Main = {rule}"), "function n = 0 function m = 0")
+    };
+    let (one, text) = (count("n := n + 1"), "same n; allow overflow;");
+    let proved = refines(&one, &count("par n := n + 1 m := 3 * m - n endpar"), text);
+    assert!(proved.is_none_or(|diagrams| diagrams == [(1, 1)]));
+    stuck(&one, &count("n := n + 2"), text, "step 1 answered");
+    stuck(
+        &one,
+        &count("if m < 7 then par n := n + 1 m := n endpar else par n := 1 n := m endpar endif"),
+        text,
+        "step 1 made",
+    );
+    // The answer is to be made, whatever happens to the abstract machine's numbers.
+    stuck(&count("par n := n + 1 m := 3 * m + 1 endpar"), &one, text, "step 1 answered");
+    let steep = |then: &str| count(&format!("if n < 1000000000000 then n := 8 * n + 1 else {then} endif"));
+    let (grows, ends) = (count("n := 8 * n + 1"), steep("n := 8 * n + 1"));
+    let verdict = |other, text| report(&grows, other, Some(text)).verdict;
+    assert!(matches!(verdict(&ends, "same n;"), Verdict::DoesNot(_)));
+    assert_eq!(verdict(&ends, text), Verdict::Refines);
+    assert!(matches!(verdict(&steep("par n := 1 n := 2 endpar"), text), Verdict::DoesNot(_)));
+}
+
 fn slow(rule: &str) -> [Arc<Program>; 2] {
     let one = machine("controlled on: Boolean", "main rule r_Main = on := not on", "function on = false");
     let other = machine(

@@ -11,7 +11,7 @@ use std::sync::Arc;
 
 use machine::{Choice, Environment, Limits, LocationRef, Machine, TimeUnit, Value};
 use program::{DomainId, Program};
-use refine::{Ended, Verdict};
+use refine::{Ended, Vacuous, Verdict};
 use testkit::Random;
 
 use crate::small::{program, report};
@@ -182,47 +182,90 @@ fn steps(graph: &Graph, from: State, inputs: &[bool], most: usize) -> BTreeSet<S
 /// What the abstract machine's input is, given the concrete machine's and its state.
 pub type Mapped = fn(bool, State) -> bool;
 
-/// Whether the concrete graph is simulated: one step, or one or two, by at most as many, with finitely many waits between steps.
-fn simulated(one: &(State, Graph), other: &(State, Graph), most: usize, mapped: Mapped) -> bool {
+/// A condition of fairness on a step of the concrete machine: by its input and the state that it is made in.
+type Fair = fn(bool, State) -> bool;
+
+/// Whether the concrete graph is simulated: one step, or one or two, by at most as many, with finitely many waits between steps; or with
+/// as many as you like of which some condition of fairness is true in finitely many steps alone.
+fn simulated(one: &(State, Graph), other: &(State, Graph), most: usize, mapped: Mapped, fair: &[Fair]) -> bool {
     let states = |graph: &Graph| graph.keys().map(|(state, _)| *state).collect::<BTreeSet<_>>();
     let mut related: BTreeSet<(State, State)> = BTreeSet::new();
     for a in states(&one.1) {
         related.extend(states(&other.1).into_iter().filter(|c| c.0 == a.0).map(|c| (a, c)));
     }
     loop {
-        // By pair, how many waits may still be needed: grown from none.
-        let mut waits: BTreeMap<(State, State), usize> = BTreeMap::new();
-        for round in 0..=related.len() {
-            for pair in &related {
-                if waits.contains_key(pair) {
-                    continue;
+        // Whatever the concrete machine does, the abstract one steps to a related pair; or waits and comes to a pair of the first set, or, if
+        // the condition was not met, to one of the second.
+        let good = |(a, c): (State, State), waits: &Pairs, avoids: Option<(&Pairs, Fair)>| {
+            let ends = |inputs: &[bool], next: State, met: bool| {
+                let there = steps(&one.1, a, inputs, most);
+                there.into_iter().any(|there| related.contains(&(there, next)))
+                    || waits.contains(&(a, next))
+                    || avoids.is_some_and(|(pairs, _)| !met && pairs.contains(&(a, next)))
+            };
+            let meets = |go: bool, state: State| avoids.is_some_and(|(_, fair)| fair(go, state));
+            [false, true].into_iter().all(|go| {
+                other.1[&(c, go)].iter().all(|next| {
+                    let again = |further: bool| {
+                        let met = meets(go, c) || meets(further, *next);
+                        let mut after = other.1[&(*next, further)].iter();
+                        after.all(|last| ends(&[mapped(go, c), mapped(further, *next)], *last, met))
+                    };
+                    ends(&[mapped(go, c)], *next, meets(go, c)) || (most > 1 && [false, true].into_iter().all(again))
+                })
+            })
+        };
+        let mut waits = Pairs::new();
+        loop {
+            let mut grown = waits.clone();
+            grown.extend(related.iter().filter(|pair| good(**pair, &waits, None)));
+            for fair in fair {
+                let mut avoids = related.clone();
+                loop {
+                    let kept: Pairs =
+                        avoids.iter().copied().filter(|pair| good(*pair, &grown, Some((&avoids, *fair)))).collect();
+                    if kept == avoids {
+                        break;
+                    }
+                    avoids = kept;
                 }
-                let (a, c) = *pair;
-                let ends = |inputs: &[bool], next: State| {
-                    let there = steps(&one.1, a, inputs, most);
-                    there.into_iter().any(|there| related.contains(&(there, next)))
-                        || waits.get(&(a, next)).is_some_and(|most| *most < round)
-                };
-                let good = [false, true].into_iter().all(|go| {
-                    other.1[&(c, go)].iter().all(|next| {
-                        let again = |further: bool| {
-                            let mut after = other.1[&(*next, further)].iter();
-                            after.all(|last| ends(&[mapped(go, c), mapped(further, *next)], *last))
-                        };
-                        ends(&[mapped(go, c)], *next) || (most > 1 && [false, true].into_iter().all(again))
-                    })
-                });
-                if good {
-                    waits.insert(*pair, round);
+                grown.extend(avoids);
+            }
+            if grown == waits {
+                break;
+            }
+            waits = grown;
+        }
+        if waits == related {
+            return related.contains(&(one.0, other.0));
+        }
+        related = waits;
+    }
+}
+
+type Pairs = BTreeSet<(State, State)>;
+
+/// Whether some round in a graph meets all conditions, wherever it begins.
+fn has_fair_round(graph: &Graph, fair: &[Fair]) -> bool {
+    let states: BTreeSet<State> = graph.keys().map(|(state, _)| *state).collect();
+    states.into_iter().any(|first| {
+        let mut open = vec![(first, vec![false; fair.len()])];
+        let mut seen = BTreeSet::new();
+        while let Some((state, met)) = open.pop() {
+            for go in [false, true] {
+                let met: Vec<bool> = met.iter().zip(fair).map(|(met, fair)| *met || fair(go, state)).collect();
+                for next in &graph[&(state, go)] {
+                    if *next == first && met.iter().all(|met| *met) {
+                        return true;
+                    }
+                    if seen.insert((*next, met.clone())) {
+                        open.push((*next, met.clone()));
+                    }
                 }
             }
         }
-        let kept: BTreeSet<(State, State)> = waits.into_keys().collect();
-        if kept == related {
-            return related.contains(&(one.0, other.0));
-        }
-        related = kept;
-    }
+        false
+    })
 }
 
 /// Makes a run again; returns the states that it goes through.
@@ -254,21 +297,34 @@ fn again(program: &Arc<Program>, run: &refine::Run) -> Vec<State> {
 
 #[test]
 fn the_verdict_is_that_of_a_naive_judge() {
-    agree(1, "same n;", |go, _| go);
+    agree(1, "same n;", |go, _| go, &[]);
 }
 
 #[test]
 fn so_it_is_where_diagrams_have_two_steps() {
-    agree(2, "same n; diagrams 0..2:1..2;", |go, _| go);
+    agree(2, "same n; diagrams 0..2:1..2;", |go, _| go, &[]);
 }
 
 #[test]
 fn so_it_is_where_an_input_is_computed_from_inputs() {
-    agree(1, "same n; input abstract.go = not concrete.go;", |go, _| !go);
-    agree(1, "same n; input abstract.go = concrete.go and concrete.h;", |go, (_, h)| go && h);
-    agree(1, "same n; input abstract.go = (concrete.go or concrete.n = 1);", |go, (n, _)| go || n == 1);
+    agree(1, "same n; input abstract.go = not concrete.go;", |go, _| !go, &[]);
+    agree(1, "same n; input abstract.go = concrete.go and concrete.h;", |go, (_, h)| go && h, &[]);
+    agree(1, "same n; input abstract.go = (concrete.go or concrete.n = 1);", |go, (n, _)| go || n == 1, &[]);
     let two = "same n; diagrams 0..2:1..2; input abstract.go = (concrete.go iff concrete.h);";
-    agree(2, two, |go, (_, h)| go == h);
+    agree(2, two, |go, (_, h)| go == h, &[]);
+}
+
+#[test]
+fn so_it_is_where_runs_are_fair() {
+    let pressed: Fair = |go, _| go;
+    let hidden: Fair = |_, (_, h)| h;
+    let shown: Fair = |_, (_, h)| !h;
+    let both: Fair = |go, (_, h)| go && h;
+    agree(1, "same n; fair concrete.go;", |go, _| go, &[pressed]);
+    agree(1, "same n; fair concrete.h;", |go, _| go, &[hidden]);
+    agree(1, "same n; fair concrete.h; fair not concrete.h; fair concrete.go;", |go, _| go, &[hidden, shown, pressed]);
+    agree(2, "same n; diagrams 0..2:1..2; fair concrete.go and concrete.h;", |go, _| go, &[both]);
+    agree(2, "same n; diagrams 0..2:1..2; fair concrete.h; fair not concrete.h;", |go, _| go, &[hidden, shown]);
 }
 
 /// Bounds make it not known, or change nothing; and where the input is the same in both, what is refuted stays refuted mostly.
@@ -322,9 +378,9 @@ fn bounds_change_no_verdict() {
 }
 
 /// With diagrams of at most so many steps.
-fn agree(most: usize, coupling: &str, mapped: Mapped) {
+fn agree(most: usize, coupling: &str, mapped: Mapped, fair: &[Fair]) {
     let cases = if std::env::var_os("GROUNDSTATE_FULL").is_some() { 2000 } else { 150 };
-    let mut counts = [0; 3];
+    let (mut counts, mut by_fairness) = ([0; 3], 0);
     for seed in 0..cases {
         let mut random = Random(seed * 7919 + 1);
         let abstractly = rule(&mut random);
@@ -338,16 +394,24 @@ fn agree(most: usize, coupling: &str, mapped: Mapped) {
                 let value = value.trim_end_matches(';').replace("concrete.", "");
                 concretely.replace("go", &format!("({value})"))
             }
+            // A machine that waits for something, and then does what the abstract one does.
+            None if !fair.is_empty() && random.below(2) > 0 => {
+                let guard = random.pick(&["go", "h", "not h", "go and h"]);
+                let otherwise = random.pick(&["skip", "h := not h", "h := go"]);
+                format!("if {guard} then {abstractly} else {otherwise} endif")
+            }
             _ => concretely,
         };
         let (one, other) = (machine_of(&abstractly), machine_of(&concretely));
         let of = |what: &str| format!("seed {seed}: {what}\nabstract {abstractly}\nconcrete {concretely}");
         let (graph_one, graph_other) = (graph(&one), graph(&other));
-        let expected = simulated(&graph_one, &graph_other, most, mapped);
+        let expected = simulated(&graph_one, &graph_other, most, mapped, fair);
         let found = report(&one, &other, Some(coupling));
         match found.verdict {
             Verdict::Refines => {
                 assert!(expected, "{}", of("the judge says no"));
+                assert!(has_fair_round(&graph_other.1, fair), "{}", of("no run is fair"));
+                by_fairness += u64::from(!simulated(&graph_one, &graph_other, most, mapped, &[]));
                 counts[0] += 1;
             }
             Verdict::DoesNot(refutation) => {
@@ -370,14 +434,25 @@ fn agree(most: usize, coupling: &str, mapped: Mapped) {
                         let steps: usize = refutation.segments[..turn].iter().map(|segment| segment.n).sum();
                         assert_eq!(c[steps], c[c.len() - 1], "{}", of("it does not come back"));
                         assert!(refutation.segments[turn..].iter().all(|segment| segment.m == 0), "{}", of("no wait"));
+                        let go =
+                            |step: &explore::Told| step.inputs.iter().any(|(_, value)| *value == Value::Boolean(true));
+                        let round = refutation.runs[1].steps.iter().zip(&c).skip(steps);
+                        let met = |fair: &Fair| round.clone().any(|(step, state)| fair(go(step), *state));
+                        assert!(fair.iter().all(met), "{}", of("the round is not fair"));
                     }
                     Ended::Fault => panic!("{}", of("there is no fault")),
                 }
+            }
+            Verdict::Vacuous(Vacuous::NoFairRun) => {
+                assert!(expected && !has_fair_round(&graph_other.1, fair), "{}", of("a run is fair"));
+                counts[2] += 1;
             }
             Verdict::Vacuous(_) => counts[2] += 1,
             Verdict::Unknown(why) => panic!("{}", of(&format!("{why:?}"))),
         }
     }
     // A sample in which nothing happens would say nothing.
-    assert!(counts[0] * 5 > cases && counts[1] * 10 > cases && counts[2] * 5 < cases, "{counts:?}");
+    let (many, few) = if fair.is_empty() { (5, 20) } else { (8, 75) };
+    assert!(counts[0] * many > cases && counts[1] * 10 > cases && counts[2] * 100 < cases * few, "{counts:?}");
+    assert!(fair.is_empty() || by_fairness * 40 > cases, "{by_fairness}");
 }

@@ -156,6 +156,21 @@ fn a_formula_needs_runs_that_keep_step() {
     is(same("invariant over n: n < 3\nJUSTICE n = 0"), "n < 3");
 }
 
+/// Assumptions may end a run within a segment: the states there correspond to nothing.
+#[test]
+fn a_run_may_end_within_a_segment() {
+    let one = machine(SIGNATURE, "{0:2}", "hidden := not hidden", "invariant over n: n = 0");
+    let rule = "if hidden then par n := 2 hidden := false endpar else par n := 1 hidden := true endpar endif";
+    let other = machine(SIGNATURE, "{0:2}", rule, "INVAR n != 2");
+    let form = |coupling: &str| {
+        let found = report(&one, &other, Some(coupling));
+        assert_eq!(found.verdict, Verdict::Refines);
+        found.properties[0].form.clone()
+    };
+    is(form("same n; segment not concrete.hidden;"), "not hidden implies n = 0");
+    not(form("same n; diagrams 0..1:2;"), "no `segment`");
+}
+
 #[test]
 fn where_segments_end_is_said() {
     // In between `n` is what corresponds to nothing.

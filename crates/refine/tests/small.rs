@@ -105,6 +105,81 @@ fn waiting_for_ever_is_no_refinement() {
     assert!(matches!(refutation.ended, Ended::Waits(2)), "{:?}", refutation.ended);
 }
 
+#[test]
+fn what_is_said_of_fairness_is_about_the_concrete_machine() {
+    let one = counter("n := (n + 1) mod 4");
+    let lamp = lamp("if pressed then on := not on endif");
+    let faults = |programs: [&Arc<Program>; 2], text: &str| {
+        let faulty = Coupling::new(programs, Some(SourceFile::new("c.refine", text)), &machine::Limits::default());
+        faulty.expect_err("a fault").faults[0].message.clone()
+    };
+    let both = "`allow waiting` takes for granted that nothing waits for ever, whether or not that is fair";
+    assert_eq!(faults([&one, &one], "same n; fair concrete.n = 0; allow waiting;"), both);
+    let side = "fairness is said by the concrete machine's state and inputs alone";
+    assert_eq!(faults([&one, &one], "same n; fair abstract.n = 0;"), side);
+    assert_eq!(faults([&one, &one], "same n; fair true;"), "this looks at nothing of the concrete machine");
+    assert!(faults([&one, &one], "same n; fair concrete.m = 0;").contains("concrete.m"));
+    // An input that is true again and again has two values, one of which is enough.
+    let fair = "same on; fair concrete.pressed;";
+    assert_eq!(report(&lamp, &lamp, Some(fair)).verdict, Verdict::Refines);
+    assert_eq!(
+        report(&lamp, &lamp, Some("same on; fair concrete.on and not concrete.on;")).verdict,
+        Verdict::Vacuous(Vacuous::NoFairRun)
+    );
+}
+
+/// What must happen comes along by the concrete model's own words, whose formulas are about fair runs; not by those of the coupling.
+#[test]
+fn what_must_happen_comes_along_to_fair_runs() {
+    let door = |rule: &str, said: &str| {
+        program(
+            "M",
+            &format!(
+                "asm M\nimport StandardLibrary\nimport CTLLibrary\nsignature:\nmonitored arrived: Boolean\ncontrolled open: Boolean\n\
+                 definitions:\n{said}\nmain rule r_Main = {rule}\ndefault init s0:\nfunction open = false\n"
+            ),
+        )
+    };
+    let one = door("open := not open", "CTLSPEC ag(af(open))");
+    let form = |said: &str, coupling: &str| {
+        let found = report(&one, &door("if arrived then open := not open endif", said), Some(coupling));
+        assert_eq!(found.verdict, Verdict::Refines);
+        found.properties[0].form.clone()
+    };
+    assert_eq!(form("JUSTICE arrived", "same open;").as_deref(), Ok("ag(af(open))"));
+    assert!(form("", "same open; fair concrete.arrived;").is_err());
+    assert!(form("JUSTICE open", "same open; fair concrete.arrived;").is_err());
+}
+
+/// `JUSTICE` of the concrete model counts without a word in the coupling, that of the abstract one does not.
+#[test]
+fn justice_of_the_concrete_model_is_fairness() {
+    let text = |rule: &str, justice: &str| {
+        program(
+            "M",
+            &format!(
+                "asm M\nimport StandardLibrary\nimport LTLLibrary\nsignature:\nmonitored arrived: Boolean\ncontrolled open: Boolean\n\
+                 definitions:\n{justice}\nmain rule r_Main = {rule}\ndefault init s0:\nfunction open = false\n"
+            ),
+        )
+    };
+    let (always, sensed) = ("open := not open", "if arrived then open := not open endif");
+    let by_input = "JUSTICE arrived";
+    let verdict = |one: &Arc<Program>, other: &Arc<Program>| report(one, other, Some("same open;"));
+    let one = text(always, "");
+    refuted(verdict(&one, &text(sensed, "")));
+    let just = verdict(&one, &text(sensed, by_input));
+    assert_eq!(just.verdict, Verdict::Refines);
+    assert_eq!(just.assumed.iter().map(|assumed| &*assumed.name).collect::<Vec<_>>(), ["JUSTICE at line 8"]);
+    refuted(verdict(&text(always, by_input), &text(sensed, "")));
+    // A condition on states, of which the round keeps one.
+    assert_eq!(
+        verdict(&one, &text("if arrived or open then open := not open endif", "JUSTICE open")).verdict,
+        Verdict::Refines
+    );
+    refuted(verdict(&one, &text(sensed, "JUSTICE not open")));
+}
+
 pub fn lamp(rule: &str) -> Arc<Program> {
     let signature = "monitored pressed: Boolean controlled on: Boolean";
     machine(signature, &format!("main rule r_Main = {rule}"), "function on = false")

@@ -47,5 +47,5 @@ fn the_examples_of_the_page_have_their_verdicts() {
             _ => panic!("line {}: a block of an unknown kind: {}", block.line, block.info),
         }
     }
-    assert_eq!(count, 16);
+    assert_eq!(count, 20);
 }

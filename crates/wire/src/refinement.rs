@@ -27,6 +27,12 @@ pub struct Refinement {
     /// Whether it is assumed that the concrete machine does not go on for ever without a step of the abstract one.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     waiting_allowed: bool,
+    /// Whether runs are looked at as far as no number of the concrete machine leaves 64 bits.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    overflow_allowed: bool,
+    /// Terms over the concrete machine, of which the coupling says that each is true in infinitely many steps of its runs.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    fair: Vec<String>,
     /// How often answers of the abstract machine use each diagram.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     diagrams: Vec<DiagramLine>,
@@ -176,7 +182,9 @@ impl Refinement {
             Verdict::Vacuous(vacuous) => {
                 let runs = match vacuous {
                     Vacuous::NoInitialPair(refutation) => Some(refutation.as_ref()),
-                    Vacuous::NoStep | Vacuous::NoneLeft | Vacuous::Total | Vacuous::NoStart(_) => None,
+                    Vacuous::NoStep | Vacuous::NoFairRun | Vacuous::NoneLeft | Vacuous::Total | Vacuous::NoStart(_) => {
+                        None
+                    }
                 };
                 ("vacuous", vec![words.vacuous(vacuous).message], runs)
             }
@@ -198,6 +206,8 @@ impl Refinement {
             reasons,
             coupling: (0..words.coupling.conjuncts()).map(|index| words.coupling.conjunct(index)).collect(),
             waiting_allowed: words.coupling.waiting,
+            overflow_allowed: words.coupling.overflow,
+            fair: words.coupling.fair(),
             diagrams: report.diagrams.iter().map(diagram).collect(),
             assumed: report
                 .assumed

@@ -9,6 +9,10 @@ use refine::{ABSTRACT, CONCRETE, Ended, Part, Refutation, SIDES};
 
 use super::{FoundStep, Refinements};
 
+/// What to do where the concrete machine goes on for ever.
+pub const WAITS: &str = "if something outside the models ends this, say what is true again and again, `fair TERM;`, or take it for granted, \
+                         `allow waiting;`";
+
 /// LIMIT: so many lines of an initial state are shown.
 const STATE_LINES: usize = 24;
 /// A state of so many locations is shown as a whole.
@@ -112,9 +116,7 @@ impl Refinements<'_> {
             Ended::Waits(turn) => {
                 let from = refutation.segments[..*turn].iter().map(|segment| segment.n).sum::<usize>();
                 lines.push(format!("  and again from step {} of the concrete machine, for ever", from + 1));
-                lines.push(
-                    "  if something outside the models ends this, write `allow waiting;` into the coupling".to_string(),
-                );
+                lines.push(format!("  {WAITS}"));
             }
             Ended::Unmatched { inputs, tried, faults } => {
                 for (name, value) in inputs {

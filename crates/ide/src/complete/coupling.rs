@@ -53,11 +53,14 @@ pub(super) fn completion<F: Files>(
         ("free" | "input", None) if !mapped => sides(&[ABSTRACT]),
         ("couple" | "variant", Some(side)) => of(&models[side], is_state),
         ("segment", Some(CONCRETE)) => of(&models[CONCRETE], is_state),
+        ("fair", Some(CONCRETE)) => of(&models[CONCRETE], |_| true),
         ("input", Some(CONCRETE)) if mapped => of(&models[CONCRETE], |_| true),
         ("couple" | "variant", None) => [sides(&[ABSTRACT, CONCRETE]), terms(&models)].concat(),
-        ("segment" | "input", None) => [sides(&[CONCRETE]), terms(&models)].concat(),
+        ("fair" | "segment" | "input", None) => [sides(&[CONCRETE]), terms(&models)].concat(),
         ("same", None) => in_both(&models),
-        ("allow", None) => vec![Item::new("waiting", ItemKind::Keyword, "", 0)],
+        ("allow", None) => {
+            vec!["waiting", "overflow"].into_iter().map(|word| Item::new(word, ItemKind::Keyword, "", 0)).collect()
+        }
         _ => Vec::new(),
     };
     Some((place.range, items))
@@ -155,10 +158,11 @@ fn terms(models: &[Option<Arc<Analysis>>; 2]) -> Vec<Item> {
 fn statements() -> Vec<Item> {
     let forms = [
         ("abstract", "the abstract model", "abstract \"${1:Model.asm}\";"),
-        ("allow", "waiting is taken to end", "allow waiting;"),
+        ("allow", "what is taken for granted: that waiting ends, or numbers fit", "allow ${0};"),
         ("concrete", "the concrete model", "concrete \"${1:Model.asm}\";"),
         ("couple", "what holds of corresponding states", "couple ${0};"),
         ("diagrams", "numbers of abstract and of concrete steps", "diagrams ${1:0..1}:${2:1};"),
+        ("fair", "what is true again and again in the concrete machine's runs", "fair ${0};"),
         ("free", "an input that the abstract machine takes as it likes", "free abstract.${0};"),
         ("input", "the value of an input of the abstract machine", "input abstract.${1} = ${0};"),
         ("same", "functions that are equal in both machines", "same ${0};"),

@@ -76,6 +76,7 @@ impl Formulas {
                 program,
                 limits: &extent.limits,
                 bounds: input_values(program, &extent.bounds, &Default::default()),
+                ends_at_overflow: side == CONCRETE && coupling.overflow,
                 starts: &starts[side],
                 readers: &coupling.readers[side],
                 read: &read.states[side],

@@ -74,6 +74,8 @@ pub(crate) struct Subject<'a> {
     pub program: &'a Arc<Program>,
     pub limits: &'a Limits,
     pub bounds: Bounds,
+    /// A number beyond 64 bits ends a run, and is no fault.
+    pub ends_at_overflow: bool,
     /// The initial states.
     pub starts: &'a [Told],
     /// By function that the coupling reads, the term that reads it.
@@ -320,7 +322,10 @@ fn encode(
     };
     let classes = [FaultClass::Inconsistent, FaultClass::OutOfDomain, FaultClass::Undefined];
     let mut faults = Vec::new();
+    let overflows = if of.ends_at_overflow { course.overflow } else { Terms::FALSE };
+    let fits = encoder.terms.not(overflows);
     for (class, fault) in classes.into_iter().zip(course.faults) {
+        let fault = encoder.terms.and([fault, fits]);
         faults.push((class_in_words(class), encoder.terms.and([fault, counts])));
     }
     let ill = encoder.terms.or(ill);

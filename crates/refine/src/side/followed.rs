@@ -102,7 +102,7 @@ impl Side {
                 (Outcome::Next(next), Some(wanted)) if self.is_assumed(next) && self.has(next, wanted) => {
                     Goal::State(self.number(next.clone()))
                 }
-                (Outcome::Fault(fault), None) if fault.kind.is_of_the_model() => {
+                (Outcome::Fault(fault), None) if fault.kind.is_of_the_model() && !self.is_end(fault) => {
                     Goal::Fault(fault.show(&self.program).to_string())
                 }
                 (Outcome::Unbounded(unbounded), _) => {

@@ -125,6 +125,7 @@ pub struct Encoder {
     /// The condition that no fault has occurred.
     live: Node,
     faults: [Node; 3],
+    overflow: Node,
     /// Conditions under which the machine may do what is not encoded.
     pub beyond: Vec<(Node, Outside)>,
     units: Vec<Unit>,
@@ -147,6 +148,14 @@ pub struct Course {
     pub live: Node,
     /// For each class, the condition that its fault was the first.
     pub faults: [Node; 3],
+    /// The condition that the first fault was a number beyond 64 bits.
+    pub overflow: Node,
+}
+
+impl Course {
+    /// Nothing was executed.
+    const NOTHING: Course =
+        Course { path: Terms::TRUE, live: Terms::TRUE, faults: [Terms::FALSE; 3], overflow: Terms::FALSE };
 }
 
 impl Encoder {
@@ -174,6 +183,7 @@ impl Encoder {
             path: Terms::TRUE,
             live: Terms::TRUE,
             faults: [Terms::FALSE; 3],
+            overflow: Terms::FALSE,
             beyond: Vec::new(),
             units: Vec::new(),
             fixed: FxHashMap::default(),
@@ -245,7 +255,7 @@ impl Encoder {
     /// See [`Encoder::step`].
     pub fn condition(&mut self, expression: &Expression) -> Result<(Node, Node)> {
         let former = self.course();
-        (self.path, self.live, self.faults) = (Terms::TRUE, Terms::TRUE, [Terms::FALSE; 3]);
+        self.resume(Course::NOTHING);
         let truth = self.closed_truth(expression);
         let live = self.live;
         self.resume(former);
@@ -274,7 +284,7 @@ impl Encoder {
     /// See [`Encoder::step`].
     pub fn value(&mut self, expression: &Expression, arguments: Vec<Symbol>) -> Result<(Symbol, Node)> {
         let former = self.course();
-        (self.path, self.live, self.faults) = (Terms::TRUE, Terms::TRUE, [Terms::FALSE; 3]);
+        self.resume(Course::NOTHING);
         let span = self.program.term_span(expression.body);
         let value = self.in_frame(arguments, expression.frame, span, |this| this.evaluate(expression.body));
         let live = self.live;
@@ -289,12 +299,13 @@ impl Encoder {
 
     /// The progress so far.
     pub fn course(&self) -> Course {
-        Course { path: self.path, live: self.live, faults: self.faults }
+        Course { path: self.path, live: self.live, faults: self.faults, overflow: self.overflow }
     }
 
     /// Continues from there.
     pub fn resume(&mut self, course: Course) {
-        (self.path, self.live, self.faults) = (course.path, course.live, course.faults);
+        let Course { path, live, faults, overflow } = course;
+        (self.path, self.live, self.faults, self.overflow) = (path, live, faults, overflow);
     }
 
     /// Restricts everything from now on to this condition.
@@ -322,6 +333,13 @@ impl Encoder {
             self.faults[class] = self.terms.or([self.faults[class], here]);
             self.end_where(condition);
         }
+    }
+
+    /// Adds the fault of a number beyond 64 bits under a condition.
+    fn overflow(&mut self, condition: Node) {
+        let here = self.terms.and([self.path, self.live, condition]);
+        self.overflow = self.terms.or([self.overflow, here]);
+        self.fault(FaultClass::Undefined, condition);
     }
 
     /// Marks what happens under a condition as not encoded.

@@ -91,7 +91,7 @@ impl Encoder {
     fn fitting(&mut self, value: Node) -> Option<Symbol> {
         let fits = self.terms.within(value, INTEGERS);
         let overflow = self.terms.not(fits);
-        self.fault(FaultClass::Undefined, overflow);
+        self.overflow(overflow);
         Some(self.symbol(Open { shape: Shape::Integer, value, defined: Terms::TRUE }))
     }
 

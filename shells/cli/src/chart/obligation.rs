@@ -5,7 +5,7 @@
 use std::path::Path;
 
 use groundstate::refine::{Coupling, Options, Verdict, refine};
-use groundstate::tell::Refinements;
+use groundstate::tell::{Refinements, WAITS};
 use groundstate::verify::Progress;
 use groundstate::{Assumptions, Leaving, Loaded, Owed, OwedProof, assume, leaving};
 use syntax::SourceFile;
@@ -207,7 +207,7 @@ fn proved(shell: &Shell, file: &Path, proof: &OwedProof, asked: Asked) -> Told {
         }
         Verdict::DoesNot(refutation) => {
             let report =
-                words.report(&report).replace("write `allow waiting;` into the coupling", "add --allow-waiting");
+                words.report(&report).replace(WAITS, "if something outside the models ends this, add --allow-waiting");
             Told::Refuted { why: words.headline(refutation), report }
         }
         Verdict::Unknown(whys) => {
