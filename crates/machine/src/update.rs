@@ -14,7 +14,7 @@ use program::{DomainId, RuleId};
 use crate::layout::LocationIndex;
 use crate::store::Store;
 use crate::value::Value;
-use crate::words::{swap, take};
+use crate::words::{shorten, swap, take};
 
 /// One update: the new value of a location, and the place of the rule. Compiled code writes updates by their layout.
 #[derive(Debug, Clone)]
@@ -269,6 +269,7 @@ impl Updates {
         if self.logged.len() < self.stamps.len() {
             self.logged.resize(self.stamps.len(), Logged::default());
         }
+        let mut may_own = false;
         for update in self.stack[unit.updates..].iter_mut().rev() {
             let Update { location, rule, previous, ref mut value } = *update;
             self.stamps[location as usize] = previous;
@@ -279,6 +280,7 @@ impl Updates {
             if logged.sequence == self.sequence {
                 let entry = &mut self.log[logged.index as usize];
                 (entry.rule, entry.time) = (rule, time);
+                may_own |= !value.is_scalar();
                 continue;
             }
             let at = self.log.len();
@@ -286,7 +288,7 @@ impl Updates {
             self.log.push(Overwritten { location, rule, before: Value::Undef, time, previous });
             swap(&mut self.log[at].before, value);
         }
-        self.stack.truncate(unit.updates);
+        shorten(&mut self.stack, unit.updates, may_own);
         self.unit = unit.enclosing;
         for (domain, element) in &self.created[unit.created..] {
             store.carriers[domain.0 as usize].intermediate.push(element.clone());
@@ -369,11 +371,13 @@ impl Updates {
     /// Takes back every intermediate state and empties the update set; returns whether there was anything.
     pub fn roll_back(&mut self, store: &mut Store) -> bool {
         let any = !(self.stack.is_empty() && self.log.is_empty() && self.created.is_empty());
+        let mut may_own = false;
         for entry in self.log.iter_mut().rev() {
             swap(&mut store.values[entry.location as usize], &mut entry.before);
             self.logged[entry.location as usize] = entry.previous;
+            may_own |= !entry.before.is_scalar();
         }
-        self.log.clear();
+        shorten(&mut self.log, 0, may_own);
         self.sequence = 0;
         self.standing = false;
         self.forget_intermediate(0, store);

@@ -69,6 +69,16 @@ pub(crate) fn swap(one: &mut Value, two: &mut Value) {
     }
 }
 
+/// Shortens a list without looking at what is dropped of it: what `may_own` memory, if anything does, is looked at.
+pub(crate) fn shorten<T>(list: &mut Vec<T>, len: usize, may_own: bool) {
+    if may_own || len > list.len() {
+        list.truncate(len);
+    } else {
+        // SAFETY: it is no longer than before. What is forgotten is not dropped, which harms nothing.
+        unsafe { list.set_len(len) };
+    }
+}
+
 /// Takes a value, and leaves undef.
 #[inline(always)]
 pub(crate) fn take(place: &mut Value) -> Value {

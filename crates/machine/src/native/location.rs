@@ -14,7 +14,7 @@ use crate::native::helper;
 use crate::native::runtime::MAY_LEAVE;
 use crate::native::shape::{Kind, Operand, Scalar};
 use crate::native::translate::{FLAGS, Translator};
-use crate::update::Update;
+use crate::update::{Stamp, Update};
 use crate::value::Value;
 
 /// Where a location is: its number, and a byte that is zero where the number must be looked up instead.
@@ -404,7 +404,8 @@ impl Translator<'_, '_> {
         }
     }
 
-    /// Adds an update of a scalar to the current unit, by a call: searches run too few steps to pay for more code.
+    /// Adds an update of a scalar to the current unit, by a call unless it leaves the location as it is: most of a search do, and searches
+    /// run too few steps to pay for more code.
     fn push_briefly(&mut self, index: ir::Value, value: Operand, rule: RuleId, may_leave: bool) {
         let (tag, payload) = match value {
             Operand::Scalar(scalar) => self.words(scalar),
@@ -416,7 +417,45 @@ impl Translator<'_, '_> {
         };
         let leave = if may_leave { MAY_LEAVE } else { 0 };
         let rule = self.word((u64::from(rule.0) | leave) as i64);
+        let done = self.block();
+        if may_leave {
+            let mask = match value {
+                Operand::Scalar(scalar) => scalar.kind.mask(),
+                _ => 0,
+            };
+            self.leave_briefly(index, [tag, payload], mask, done);
+        }
         self.call_or_bail(helper::PUSH, [self.context, index, tag, payload, rule]);
+        self.jump(done);
+        self.switch(done);
+    }
+
+    /// Notes that the current unit gives a location the scalar that it has, of these words, and goes on behind; where it does not, or where
+    /// that cannot be told here, goes on here.
+    fn leave_briefly(&mut self, index: ir::Value, [tag, payload]: [ir::Value; 2], mask: u64, done: ir::Block) {
+        let (leaves, pushes) = (self.block(), self.block());
+        let place = self.stored(index);
+        let (old_tag, old_payload) = (self.load(types::I64, place, 0), self.load(types::I64, place, 8));
+        let stamps = self.field(Offset::stamps);
+        let stamp = self.element(stamps, index, 3);
+        let holder = self.builder.ins().uload32(FLAGS, stamp, 0);
+        let (unit, terse) = (self.field(Offset::unit), self.field(Offset::terse));
+        let differs = self.builder.ins().bxor(payload, old_payload);
+        let differs = self.builder.ins().band_imm(differs, mask as i64);
+        let same_tag = self.builder.ins().icmp(IntCC::Equal, tag, old_tag);
+        let same = self.builder.ins().icmp_imm(IntCC::Equal, differs, 0);
+        let fresh = self.builder.ins().icmp(IntCC::NotEqual, holder, unit);
+        let is_terse = self.builder.ins().icmp_imm(IntCC::NotEqual, terse, 0);
+        let all = self.builder.ins().band(same_tag, same);
+        let all = self.builder.ins().band(all, fresh);
+        let all = self.builder.ins().band(all, is_terse);
+        self.branch(all, leaves, pushes);
+        self.switch(leaves);
+        let unchanged = self.word(i64::from(Stamp::UNCHANGED) << 32);
+        let mark = self.builder.ins().bor(unit, unchanged);
+        self.store(mark, stamp, 0);
+        self.jump(done);
+        self.switch(pushes);
     }
 
     fn locate(&mut self, function: FunctionId, arguments: &[Operand]) -> ir::Value {

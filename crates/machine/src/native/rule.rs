@@ -51,19 +51,30 @@ impl Translator<'_, '_> {
             }),
             Rule::Par(rules) => {
                 let rules = program.rule_list(*rules);
-                let sole = self.sole;
+                let (sole, is_part) = (self.sole, self.is_part);
                 self.sole &= rules.len() < 2;
+                self.is_part &= rules.len() < 2;
                 for rule in rules {
                     self.rule(*rule);
                 }
-                self.sole = sole;
+                (self.sole, self.is_part) = (sole, is_part);
+            }
+            // A sequence that is the whole of a part goes on with the sequence around it: their composition is associative.
+            Rule::Seq(rules) if self.is_part => {
+                for (index, rule) in program.rule_list(*rules).iter().enumerate() {
+                    if index > 0 {
+                        self.call(helper::APPLY_UNIT, [self.context]);
+                        self.call(helper::OPEN, [self.context]);
+                    }
+                    self.rule(*rule);
+                }
             }
             Rule::Seq(rules) => {
                 let (outer, sole) = (self.foralls.take(), self.sole);
                 self.in_unit(sole, |this| {
                     this.call(helper::BEGIN_SEQUENCE, [this.context]);
                     for rule in program.rule_list(*rules) {
-                        this.part(*rule);
+                        this.part(*rule, true);
                     }
                     let end = if sole { helper::END_LAST_SEQUENCE } else { helper::END_SEQUENCE };
                     this.call_or_bail(end, [this.context]);
@@ -129,6 +140,7 @@ impl Translator<'_, '_> {
             }),
             Rule::Forall { binders, condition, body } => self.statement(|this| {
                 let sole = std::mem::replace(&mut this.sole, false);
+                let is_part = std::mem::replace(&mut this.is_part, false);
                 let outer = this.foralls.clone();
                 let ranges = program.binder_list(*binders);
                 if ranges.iter().any(|binder| !matches!(program.term(binder.range), Term::Domain(_))) {
@@ -148,12 +160,13 @@ impl Translator<'_, '_> {
                     }
                 });
                 this.foralls = outer;
-                this.sole = sole;
+                (this.sole, this.is_part) = (sole, is_part);
             }),
             Rule::Choose { binders, condition, body, if_none } => {
                 self.choose(id, *binders, *condition, *body, *if_none);
             }
             Rule::Extend { domain, first, count, body } => {
+                let is_part = std::mem::replace(&mut self.is_part, false);
                 let base = program.base_domain(*domain);
                 for offset in 0..*count {
                     let domain = self.word(i64::from(domain.0));
@@ -162,6 +175,7 @@ impl Translator<'_, '_> {
                     self.bind(Slot(first.0 + offset), Bound::Scalar(element));
                 }
                 self.rule(*body);
+                self.is_part = is_part;
             }
             Rule::Iterate(body) => self.repeat(None, *body, true),
             Rule::While { condition, body } => self.repeat(Some(*condition), *body, true),
@@ -199,6 +213,7 @@ impl Translator<'_, '_> {
     /// `no others` join it to what the step has done: a clash with them would not be found, nor that it made some.
     fn in_unit(&mut self, no_others: bool, body: impl FnOnce(&mut Self)) {
         let sole = std::mem::replace(&mut self.sole, false);
+        let is_part = std::mem::replace(&mut self.is_part, false);
         if no_others || !self.plan.is_terse() {
             body(self);
         } else {
@@ -208,13 +223,15 @@ impl Translator<'_, '_> {
             body(self);
             self.set_field(Offset::terse, before);
         }
-        self.sole = sole;
+        (self.sole, self.is_part) = (sole, is_part);
     }
 
-    /// One part of a sequence; gives whether it made updates.
-    fn part(&mut self, rule: RuleId) -> cranelift_codegen::ir::Value {
+    /// One part of a sequence, or a round of a loop; gives whether it made updates. What `may_go_on` may be several parts instead.
+    fn part(&mut self, rule: RuleId, may_go_on: bool) -> cranelift_codegen::ir::Value {
+        let is_part = std::mem::replace(&mut self.is_part, may_go_on);
         self.call(helper::OPEN, [self.context]);
         self.rule(rule);
+        self.is_part = is_part;
         self.call(helper::APPLY_UNIT, [self.context])
     }
 
@@ -234,7 +251,7 @@ impl Translator<'_, '_> {
             None => self.jump(inner),
         }
         self.switch(inner);
-        let any = self.part(body);
+        let any = self.part(body, false);
         if while_updates {
             let next = self.block();
             self.branch(any, next, done);

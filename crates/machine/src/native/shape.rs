@@ -52,6 +52,15 @@ impl Kind {
         }
     }
 
+    /// Which bits of the second word of a value are written.
+    pub fn mask(self) -> u64 {
+        match self {
+            Kind::Boolean => 0xff,
+            Kind::Char | Kind::Rule => 0xffff_ffff,
+            Kind::Integer | Kind::Real | Kind::Enum(_) | Kind::Element(_) => u64::MAX,
+        }
+    }
+
     /// The value of a number: an integer, or the place of a literal, an element, a truth value.
     pub fn value(self, number: i64) -> Value {
         match self {
@@ -204,12 +213,7 @@ mod tests {
         for (kind, value, payload) in cases {
             let [tag, word] = words(&value);
             assert_eq!(tag, kind.tag() as u64, "{value:?}");
-            let mask = match kind {
-                Kind::Boolean => 0xff,
-                Kind::Char | Kind::Rule => 0xffff_ffff,
-                _ => u64::MAX,
-            };
-            assert_eq!(word & mask, payload, "{value:?}");
+            assert_eq!(word & kind.mask(), payload, "{value:?}");
         }
         assert_eq!(words(&Value::Undef)[0], 0);
     }

@@ -62,6 +62,8 @@ pub(super) struct Translator<'t, 'f> {
     pub foralls: Option<Vec<program::Slot>>,
     /// Nothing else updates anything in the step while the rule being translated runs, or has done so before.
     pub sole: bool,
+    /// The rule being translated is the whole of a part of a sequence, of which nobody asks whether it made updates.
+    pub is_part: bool,
     /// Terms and rules translated into this function.
     pub weight: usize,
     /// How often the loops around that do not count their rounds run what is being translated.
@@ -94,6 +96,7 @@ impl<'t, 'f> Translator<'t, 'f> {
             gatherers: 0,
             foralls: None,
             sole: false,
+            is_part: false,
             weight: 0,
             rounds: 1,
             references: Vec::new(),
