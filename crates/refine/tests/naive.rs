@@ -421,6 +421,8 @@ fn agree(most: usize, coupling: &str, mapped: Mapped, fair: &[Fair]) {
                 let [a, c] = [again(&one, &refutation.runs[0]), again(&other, &refutation.runs[1])];
                 let (mut at, mut there) = (0, 0);
                 assert_eq!(a[0].0, c[0].0, "{}", of("the beginnings differ"));
+                let begins = |run: &refine::Run| run.values.iter().any(|(_, value)| *value == Value::Integer(0));
+                assert!(refutation.runs.iter().all(begins), "{}", of("a beginning is not told"));
                 for segment in &refutation.segments {
                     (at, there) = (at + segment.m, there + segment.n);
                     assert_eq!(a[at].0, c[there].0, "{}", of("a diagram's ends differ"));

@@ -122,10 +122,36 @@ fn what_is_said_of_fairness_is_about_the_concrete_machine() {
     // An input that is true again and again has two values, one of which is enough.
     let fair = "same on; fair concrete.pressed;";
     assert_eq!(report(&lamp, &lamp, Some(fair)).verdict, Verdict::Refines);
-    assert_eq!(
-        report(&lamp, &lamp, Some("same on; fair concrete.on and not concrete.on;")).verdict,
-        Verdict::Vacuous(Vacuous::NoFairRun)
+    // What is never true, or true in a step behind which the other condition is true no more.
+    let once = self::lamp("if pressed then on := true endif");
+    for none in [
+        "same on; fair concrete.on and not concrete.on;",
+        "same on; fair not concrete.on; fair concrete.pressed and not concrete.on;",
+    ] {
+        assert_eq!(report(&once, &once, Some(none)).verdict, Verdict::Vacuous(Vacuous::NoFairRun), "{none}");
+    }
+}
+
+/// A wait that the variant does not allow is told with its values.
+#[test]
+fn a_variant_that_does_not_decrease_is_told() {
+    let one = counter("n := (n + 1) mod 4");
+    let signature = "domain N subsetof Integer controlled n: N controlled left: N";
+    let slow = machine(
+        signature,
+        "domain N = {0:3} main rule r_Main =
+            if left = 0 then par n := (n + 1) mod 4 left := 2 endpar else left := left - 1 endif",
+        "function n = 0 function left = 0",
     );
+    assert_eq!(report(&one, &slow, Some("same n; variant concrete.left;")).verdict, Verdict::Refines);
+    let refutation = refuted(report(&one, &slow, Some("same n; variant 3 - concrete.left;")));
+    let Ended::Unmatched { tried, .. } = refutation.ended else { panic!() };
+    let part = tried.iter().flat_map(|tried| &tried.parts).find(|part| part.text.starts_with("variant"));
+    let part = part.expect("the variant is told");
+    assert_eq!(part.text, "variant 3 - concrete.left");
+    assert_eq!(part.trouble.as_deref(), Some("is negative or does not decrease"));
+    let values: Vec<String> = part.values.iter().map(|(when, value)| format!("{when} {value}")).collect();
+    assert_eq!(values, ["before 1", "after 2"]);
 }
 
 /// What must happen comes along by the concrete model's own words, whose formulas are about fair runs; not by those of the coupling.
