@@ -376,6 +376,14 @@ fn updates_that_change_nothing_are_updates() {
         "seq n := 0 y := 0 while n < 3 do par n := n + 1 y := y + 1 x := x endpar endseq",
         "seq n := 0 iterate if n < 2 then seq x := x n := n + 1 endseq endif enditerate y := 1 - y endseq",
         "seq r_Set[0] forall $i in {0 : 2} with m do r_Set[0] y := 1 - y endseq",
+        // Sequences that are parts of others, and such that are not.
+        "seq seq x := 1 - x seq y := x n := y endseq endseq let ($v = x) in seq x := y y := ($v + n) mod 3 endseq endlet endseq",
+        "seq if m then seq x := 1 y := x endseq else seq y := 1 - y x := y endseq endif n := x endseq",
+        "seq choose $k in {0 : 2} with $k != x do seq x := $k y := x endseq par seq x := y y := 0 endseq n := x endpar endseq",
+        "seq seq x := 0 par x := 1 if m then x := 0 endif endpar endseq y := 1 - y endseq",
+        "seq n := 0 while n < 2 do seq x := 1 - x n := n + 1 endseq y := x endseq",
+        "seq n := 0 iterate seq if n < 2 then n := n + 1 endif skip endseq enditerate y := 1 - y endseq",
+        "seq forall $i in {0 : 1} with m do seq x := 1 n := x endseq seq y := 1 - y x := y endseq endseq",
     ];
     let mut total = Total::default();
     for main in mains {
