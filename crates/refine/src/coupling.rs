@@ -126,12 +126,11 @@ impl Coupling {
     }
 
     /// The conditions of fairness that the coupling says, as a user would write them.
-    pub fn fair(&self) -> Vec<String> {
-        let said = self.fair.iter().filter_map(|fair| match &fair.term {
+    pub(crate) fn fair(&self) -> impl Iterator<Item = String> {
+        self.fair.iter().filter_map(|fair| match &fair.term {
             FairTerm::Said(text, _) => Some(in_a_line(text)),
             FairTerm::Own(_) => None,
-        });
-        said.collect()
+        })
     }
 
     /// How many conjuncts there are.

@@ -11,7 +11,7 @@ use program::PropertyKind;
 use crate::behind::{self, is_unclear};
 use crate::bounded::of_proof;
 use crate::computed::Computed;
-use crate::coupling::Coupling;
+use crate::coupling::{Coupling, start};
 use crate::evidence;
 use crate::fair::has_fair_run;
 use crate::game::{Rules, solve};
@@ -186,7 +186,7 @@ fn attempt(
         side.ignore_interrupts();
     }
     let is_complete = whys.0.is_empty() && !is_lost;
-    let mut diagrams = Default::default();
+    let (mut diagrams, mut needs_fairness) = (Default::default(), product.fair() > 0);
     let said = says(&mut product, is_complete);
     let hopeful = solve(&product, Rules::of(&product, true));
     let bounded = of_proof(&product, &options.extents);
@@ -213,8 +213,10 @@ fn attempt(
             bounded.iter().for_each(|why| whys.add(*why));
             if sure.won {
                 diagrams = evidence::used(&product, &sure);
+                needs_fairness &= !solve(&product, Rules { fair: false, ..sure.rules }).won;
             }
             match (sure.won, said) {
+                (true, _) if needs_fairness && !has_fair_run(&product) => Verdict::Vacuous(Vacuous::NoFairRun),
                 (true, _) if !bounded.is_empty() => Verdict::Unknown(bounded),
                 (true, Says::Perhaps(pairs)) => Verdict::Unknown(vec![Why::Undistinguished(pairs)]),
                 (true, _) => Verdict::Refines,
@@ -229,7 +231,7 @@ fn attempt(
     for side in [ABSTRACT, CONCRETE] {
         let properties = &coupling.programs[side].properties;
         let is_assumed = |kind: PropertyKind| {
-            kind == PropertyKind::Invar || (kind == PropertyKind::Justice && side == CONCRETE && !coupling.waiting)
+            kind == PropertyKind::Invar || (kind == PropertyKind::Justice && side == CONCRETE && needs_fairness)
         };
         let said = properties.iter().filter(|property| is_assumed(property.kind));
         assumed.extend(said.map(|property| Assumed {
@@ -245,6 +247,13 @@ fn attempt(
                 assumed.push(bound);
             }
         }
+    }
+    if needs_fairness {
+        assumed.extend(coupling.fair().map(|text| Assumed {
+            side: CONCRETE,
+            name: format!("again and again: {text}"),
+            from: From::Text(start(coupling.file)),
+        }));
     }
     let idle = product.sides[ABSTRACT].steps.1 == 0;
     let properties = match verdict {
@@ -315,9 +324,6 @@ fn says(product: &mut Product<'_>, is_complete: bool) -> Says {
     }
     if is_complete && product.sides[CONCRETE].steps.1 == 0 {
         return Says::Nothing(Vacuous::NoStep);
-    }
-    if is_complete && product.fair() > 0 && !has_fair_run(product) {
-        return Says::Nothing(Vacuous::NoFairRun);
     }
     let [one, other] = [ABSTRACT, CONCRETE].map(|side| product.sides[side].count());
     if product.judge.distinguishes || one < 2 || other < 2 {

@@ -68,7 +68,7 @@ impl Transfer {
         };
         let each = Rules { most_m: 1, ..rules };
         // Formulas of the concrete model are about the runs that are fair by its own words, not by those of the coupling.
-        let live = Rules { waiting: false, fair: product.judge.coupling.fair().is_empty(), ..each };
+        let live = Rules { waiting: false, fair: product.judge.coupling.fair().next().is_none(), ..each };
         let exact = Rules { least_m: 1, ..live };
         // A state without a step is one in which a run stays for ever; the proof says nothing of that.
         let goes_on = !product.sides[CONCRETE].has_dead_end();

@@ -30,9 +30,6 @@ pub struct Refinement {
     /// Whether runs are looked at as far as no number of the concrete machine leaves 64 bits.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     overflow_allowed: bool,
-    /// Terms over the concrete machine, of which the coupling says that each is true in infinitely many steps of its runs.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    fair: Vec<String>,
     /// How often answers of the abstract machine use each diagram.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     diagrams: Vec<DiagramLine>,
@@ -207,7 +204,6 @@ impl Refinement {
             coupling: (0..words.coupling.conjuncts()).map(|index| words.coupling.conjunct(index)).collect(),
             waiting_allowed: words.coupling.waiting,
             overflow_allowed: words.coupling.overflow,
-            fair: words.coupling.fair(),
             diagrams: report.diagrams.iter().map(diagram).collect(),
             assumed: report
                 .assumed

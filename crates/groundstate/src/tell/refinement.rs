@@ -195,9 +195,6 @@ impl Refinements<'_> {
         if self.coupling.overflow {
             lines.push("  assumed    no number of the concrete machine leaves 64 bits".to_string());
         }
-        for fair in self.coupling.fair() {
-            lines.push(format!("  assumed    again and again: {fair} (concrete)"));
-        }
         for assumed in &report.assumed {
             lines.push(format!("  assumed    {}", self.assumed(assumed)));
         }
@@ -309,7 +306,7 @@ impl Refinements<'_> {
                 "no initial states correspond: the coupling holds of no initial pair".to_string()
             }
             Vacuous::NoStep => "the concrete machine makes no step that changes its state".to_string(),
-            Vacuous::NoFairRun => "the concrete machine has no fair run: there is nothing to refine".to_string(),
+            Vacuous::NoFairRun => "the concrete machine has no fair run, and it refines by fairness alone".to_string(),
             Vacuous::NoneLeft => {
                 "the assumptions leave the concrete machine no step: there is nothing to refine".to_string()
             }
