@@ -9,7 +9,7 @@ use std::mem::MaybeUninit;
 
 use crate::value::Value;
 
-/// The tags below this one are those of values without memory of their own; [`crate::native::shape::Kind::tag`] has them all.
+/// The tags below this one are those of values without memory of their own; `Kind::tag` of native/shape.rs has them all.
 const COMPOUND: u64 = 8;
 /// The tag of undef, which has no payload.
 const UNDEF: u64 = 0;
