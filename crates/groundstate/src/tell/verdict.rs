@@ -119,7 +119,10 @@ impl Verdicts<'_> {
     fn why(&self, why: &Why) -> String {
         match why {
             Why::Unexplored(Some(stop)) => self.reason(&Reason::Stopped(*stop)),
-            Why::Unexplored(None) => "some alternatives cannot be enumerated".to_string(),
+            Why::Unexplored(None) => {
+                "some alternatives cannot be enumerated, or a run ends in a state of whose inputs a formula speaks"
+                    .to_string()
+            }
             Why::NoTruth(span, values) => {
                 let values: Vec<String> = values.iter().map(|(location, value)| self.value(location, value)).collect();
                 let text: Vec<&str> = self.sources.text(*span).split_whitespace().collect();

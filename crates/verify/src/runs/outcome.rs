@@ -20,7 +20,8 @@ pub enum OfRuns {
 /// Why a property of runs is unknown.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Why {
-    /// States were left unexplored, because of a limit or because alternatives cannot be enumerated.
+    /// States were left unexplored, because of a limit or because alternatives cannot be enumerated; or assumptions leave a state no step,
+    /// and so no inputs, of which a formula or fairness speaks.
     Unexplored(Option<Stop>),
     /// A proposition has no truth value in some state: its place, and the values of that state.
     NoTruth(Span, Vec<(Location, Value)>),
