@@ -223,8 +223,7 @@ impl<'w, 'c> Waiting<'w, 'c> {
     /// The pairs from which the concrete machine can go on for ever, and meet each condition of fairness again and again, while the
     /// abstract one makes no step. `turns` receives of each how soon.
     fn pairs(mut self, turns: &mut [Vec<u32>]) -> Vec<PairId> {
-        let all: Vec<PairId> = (0..self.product.pairs.len() as PairId).collect();
-        let mut grown = self.open(&all);
+        let mut grown = self.all_open();
         loop {
             self.advance(grown);
             grown = Vec::new();
@@ -234,15 +233,18 @@ impl<'w, 'c> Waiting<'w, 'c> {
                 grown.extend(kept.iter().flat_map(|pair| &self.parents[*pair as usize]));
             }
             if grown.is_empty() {
-                return self.open(&all);
+                return self.all_open();
             }
         }
     }
 
-    /// Those of these pairs of which it is open.
-    fn open(&self, pairs: &[PairId]) -> Vec<PairId> {
-        let open = |pair: &PairId| self.lost[*pair as usize].is_none() && !self.moves[*pair as usize];
-        pairs.iter().copied().filter(open).collect()
+    /// Whether it is open of a pair.
+    fn is_open(&self, pair: PairId) -> bool {
+        self.lost[pair as usize].is_none() && !self.moves[pair as usize]
+    }
+
+    fn all_open(&self) -> Vec<PairId> {
+        (0..self.product.pairs.len() as PairId).filter(|pair| self.is_open(*pair)).collect()
     }
 
     /// Whether the abstract machine can bring about from a pair what counts as good at the end of a diagram without a step of it, or a
@@ -260,20 +262,19 @@ impl<'w, 'c> Waiting<'w, 'c> {
     fn advance(&mut self, begin: Vec<PairId>) {
         let mut queue = VecDeque::from(begin);
         while let Some(pair) = queue.pop_front() {
-            if self.open(&[pair]).is_empty() || !self.forces(pair, &|_, _| false) {
+            if !self.is_open(pair) || !self.forces(pair, &|_, _| false) {
                 continue;
             }
             self.moves[pair as usize] = true;
-            queue.extend(self.open(&self.parents[pair as usize]));
+            queue.extend(self.parents[pair as usize].iter().filter(|parent| self.is_open(**parent)));
         }
     }
 
     /// The pairs from which the abstract machine can wait so that a condition is met no more: the greatest fixpoint. Of the others `turns`
     /// receives when they dropped out.
     fn unfair(&self, fair: usize, turns: &mut [u32]) -> Vec<PairId> {
-        let all: Vec<PairId> = (0..self.product.pairs.len() as PairId).collect();
-        let candidates = self.open(&all);
-        let mut kept = vec![false; all.len()];
+        let candidates = self.all_open();
+        let mut kept = vec![false; self.product.pairs.len()];
         candidates.iter().for_each(|pair| kept[*pair as usize] = true);
         let mut queue = VecDeque::from(candidates.clone());
         let mut turn = 0;

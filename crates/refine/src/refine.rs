@@ -12,7 +12,7 @@ use crate::behind::{self, is_unclear};
 use crate::bounded::of_proof;
 use crate::computed::Computed;
 use crate::coupling::{Coupling, start};
-use crate::evidence;
+use crate::evidence::{self, Ended};
 use crate::fair::has_fair_run;
 use crate::game::{Rules, solve};
 use crate::judge::Judge;
@@ -227,6 +227,10 @@ fn attempt(
             }
         }
     };
+    if let Verdict::DoesNot(refutation) = &verdict {
+        // What cannot be answered is lost, whatever is fair.
+        needs_fairness &= matches!(refutation.ended, Ended::Waits(_));
+    }
     let mut assumed = Vec::new();
     for side in [ABSTRACT, CONCRETE] {
         let properties = &coupling.programs[side].properties;

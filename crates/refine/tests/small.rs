@@ -157,18 +157,18 @@ fn a_variant_that_does_not_decrease_is_told() {
     assert_eq!(values, ["before 1", "after 2"]);
 }
 
+/// A door with this rule, and what its model says of runs.
+fn door(rule: &str, said: &str) -> Arc<Program> {
+    let text = format!(
+        "asm M\nimport StandardLibrary\nimport CTLLibrary\nsignature:\nmonitored arrived: Boolean\ncontrolled open: Boolean\n\
+         definitions:\n{said}\nmain rule r_Main = {rule}\ndefault init s0:\nfunction open = false\n"
+    );
+    program("M", &text)
+}
+
 /// What must happen comes along by the concrete model's own words, whose formulas are about fair runs; not by those of the coupling.
 #[test]
 fn what_must_happen_comes_along_to_fair_runs() {
-    let door = |rule: &str, said: &str| {
-        program(
-            "M",
-            &format!(
-                "asm M\nimport StandardLibrary\nimport CTLLibrary\nsignature:\nmonitored arrived: Boolean\ncontrolled open: Boolean\n\
-                 definitions:\n{said}\nmain rule r_Main = {rule}\ndefault init s0:\nfunction open = false\n"
-            ),
-        )
-    };
     let one = door("open := not open", "CTLSPEC ag(af(open))");
     let form = |said: &str, coupling: &str| {
         let found = report(&one, &door("if arrived then open := not open endif", said), Some(coupling));
@@ -183,30 +183,28 @@ fn what_must_happen_comes_along_to_fair_runs() {
 /// `JUSTICE` of the concrete model counts without a word in the coupling, that of the abstract one does not.
 #[test]
 fn justice_of_the_concrete_model_is_fairness() {
-    let text = |rule: &str, justice: &str| {
-        program(
-            "M",
-            &format!(
-                "asm M\nimport StandardLibrary\nimport LTLLibrary\nsignature:\nmonitored arrived: Boolean\ncontrolled open: Boolean\n\
-                 definitions:\n{justice}\nmain rule r_Main = {rule}\ndefault init s0:\nfunction open = false\n"
-            ),
-        )
-    };
     let (always, sensed) = ("open := not open", "if arrived then open := not open endif");
     let by_input = "JUSTICE arrived";
     let verdict = |one: &Arc<Program>, other: &Arc<Program>| report(one, other, Some("same open;"));
-    let one = text(always, "");
-    refuted(verdict(&one, &text(sensed, "")));
-    let just = verdict(&one, &text(sensed, by_input));
+    let one = door(always, "");
+    refuted(verdict(&one, &door(sensed, "")));
+    let just = verdict(&one, &door(sensed, by_input));
     assert_eq!(just.verdict, Verdict::Refines);
     assert_eq!(just.assumed.iter().map(|assumed| &*assumed.name).collect::<Vec<_>>(), ["JUSTICE at line 8"]);
-    refuted(verdict(&text(always, by_input), &text(sensed, "")));
+    refuted(verdict(&door(always, by_input), &door(sensed, "")));
     // A condition on states, of which the round keeps one.
     assert_eq!(
-        verdict(&one, &text("if arrived or open then open := not open endif", "JUSTICE open")).verdict,
+        verdict(&one, &door("if arrived or open then open := not open endif", "JUSTICE open")).verdict,
         Verdict::Refines
     );
-    refuted(verdict(&one, &text(sensed, "JUSTICE not open")));
+    refuted(verdict(&one, &door(sensed, "JUSTICE not open")));
+    // What waits rests on it, and what nothing matches does not.
+    let assumed = |rule: &str| {
+        let found = verdict(&one, &door(rule, "JUSTICE not open"));
+        let assumed = found.assumed.len();
+        (matches!(refuted(found).ended, Ended::Waits(_)), assumed)
+    };
+    assert_eq!([assumed(sensed), assumed("if arrived then open := undef endif")], [(true, 1), (false, 0)]);
 }
 
 pub fn lamp(rule: &str) -> Arc<Program> {
