@@ -1,20 +1,26 @@
 //! Decides whether two states correspond.
 //!
 //! In: a coupling, the numbers of two states. Out: whether the relation holds of them, and if not, which parts fail. Terms are evaluated
-//! by a machine of the joint model that asks the two sides for the values of their functions. INVARIANT: a part that is undefined or
-//! cannot be evaluated does not hold.
+//! by a machine of the joint model that asks the two sides for the values of their functions; what they came to is remembered by what they
+//! looked at. INVARIANT: a part that is undefined or cannot be evaluated does not hold.
+
+mod parts;
+mod remembered;
+mod same;
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use machine::{Choice, Environment, Limits, LocationRef, Machine, TimeUnit, Value};
 use program::{DomainId, Expression, FunctionId, Program, Slot, TermId};
-use rustc_hash::FxHashMap;
 
-use crate::coupling::{Conjunct, Coupling};
+use crate::coupling::Coupling;
 use crate::joint::Joint;
 use crate::side::{Side, StateId};
-use crate::{ABSTRACT, CONCRETE, SIDES};
+use crate::{ABSTRACT, CONCRETE};
+use parts::{Part, TermPart};
+use remembered::{Look, Remembered};
+use same::Numbers;
 
 /// What was read while a term was evaluated: the side, the function, its arguments, the value, all as the joint model has them.
 pub(crate) type Read = (usize, FunctionId, Vec<Value>, Value);
@@ -26,10 +32,13 @@ pub(crate) type Bound = (Slot, Value);
 pub(crate) struct Judge<'c> {
     pub coupling: &'c Coupling,
     machine: Machine,
-    known: FxHashMap<(StateId, StateId), bool>,
-    /// By conjunct, side and state: the number of its values.
-    signatures: FxHashMap<(usize, usize, StateId), u32>,
-    numbers: FxHashMap<Vec<(Vec<Value>, Value)>, u32>,
+    /// The relation: all of them hold.
+    parts: Vec<Part>,
+    /// The one that failed last: of the next states it is asked first.
+    failed: usize,
+    /// Where a segment ends.
+    segment: Remembered,
+    numbers: Numbers,
     /// Whether the relation was false of some pair.
     pub distinguishes: bool,
 }
@@ -39,6 +48,7 @@ struct Both<'s> {
     sides: &'s mut [Side; 2],
     states: [StateId; 2],
     reads: Vec<Read>,
+    looks: Vec<Look>,
 }
 
 impl Environment for Both<'_> {
@@ -52,11 +62,12 @@ impl Environment for Both<'_> {
         let value = match there {
             None => Value::Undef,
             Some(arguments) => {
-                let side_of = &mut self.sides[side];
-                let read = side_of.read(self.states[side], function, &arguments);
-                let program = Arc::clone(&side_of.program);
-                let value = read.map_err(|fault| fault.show(&program).to_string())?;
-                bridge.over(&value).ok_or("an element without a name, which the other machine does not have")?
+                let of = &mut self.sides[side];
+                let place = of.place(function, arguments);
+                let number = of.value_at(self.states[side], place);
+                self.looks.push((side, place, number));
+                let value = of.value(number).as_ref().map_err(String::clone)?;
+                bridge.over(value).ok_or("an element without a name, which the other machine does not have")?
             }
         };
         self.reads.push((side, location.function, location.arguments.to_vec(), value.clone()));
@@ -78,42 +89,61 @@ impl<'c> Judge<'c> {
         machine.ignore_interrupts();
         // Nothing in the joint model has an initial value.
         let _ = machine.start(&mut machine::Closed);
+        let parts = parts::parts(coupling, &mut machine);
         Judge {
             coupling,
             machine,
-            known: FxHashMap::default(),
-            signatures: FxHashMap::default(),
-            numbers: FxHashMap::default(),
+            parts,
+            failed: 0,
+            segment: Remembered::default(),
+            numbers: Numbers::default(),
             distinguishes: false,
         }
     }
 
     /// Whether two states correspond.
     pub fn coupled(&mut self, sides: &mut [Side; 2], states: [StateId; 2]) -> bool {
-        if let Some(known) = self.known.get(&(states[ABSTRACT], states[CONCRETE])) {
-            return *known;
-        }
-        let holds = (0..self.coupling.conjuncts.len()).all(|index| self.holds(sides, index, states));
+        let count = self.parts.len();
+        let holds = (0..count).all(|index| {
+            let index = (self.failed + index) % count;
+            let holds = self.holds(sides, index, states);
+            if !holds {
+                self.failed = index;
+            }
+            holds
+        });
         self.distinguishes |= !holds;
-        self.known.insert((states[ABSTRACT], states[CONCRETE]), holds);
         holds
     }
 
-    /// The parts of the relation that do not hold of two states.
+    /// The conjuncts of the relation that do not hold of two states.
     pub fn failing(&mut self, sides: &mut [Side; 2], states: [StateId; 2]) -> Vec<usize> {
-        (0..self.coupling.conjuncts.len()).filter(|index| !self.holds(sides, *index, states)).collect()
+        let failing: Vec<usize> = (0..self.parts.len()).filter(|index| !self.holds(sides, *index, states)).collect();
+        let mut of: Vec<usize> = failing.iter().map(|index| self.parts[*index].of()).collect();
+        of.dedup();
+        of
     }
 
+    /// Whether a part of the relation holds.
     fn holds(&mut self, sides: &mut [Side; 2], index: usize, states: [StateId; 2]) -> bool {
-        match &self.coupling.conjuncts[index] {
-            Conjunct::Same { .. } => {
-                let number = |judge: &mut Self, side: usize, sides: &mut [Side; 2]| {
-                    judge.signature(sides, index, side, states[side])
-                };
-                number(self, ABSTRACT, sides) == number(self, CONCRETE, sides)
+        let Judge { coupling, parts, numbers, .. } = self;
+        let part = match &mut parts[index] {
+            Part::Same(same) => {
+                let mut signature = |side: usize| same.signature(coupling, numbers, sides, side, states[side]);
+                return signature(ABSTRACT) == signature(CONCRETE);
             }
-            Conjunct::Term { formula, .. } => self.evaluate(sides, formula, states).0 == Ok(Value::Boolean(true)),
+            Part::Term(part) => part,
+        };
+        if let Some(known) = part.known.truth(sides, states) {
+            return known;
         }
+        let (term, bound) = (part.term, part.bound.clone());
+        let (value, _, looks) = self.looked(sides, term, &bound, states);
+        let holds = value == Ok(Value::Boolean(true));
+        if let Part::Term(TermPart { known, .. }) = &mut self.parts[index] {
+            known.add(&looks, holds);
+        }
+        holds
     }
 
     /// The value of a term over two states, and what it read.
@@ -134,11 +164,22 @@ impl<'c> Judge<'c> {
         bound: &[Bound],
         states: [StateId; 2],
     ) -> (Result<Value, String>, Vec<Read>) {
+        let (value, reads, _) = self.looked(sides, (term, frame), bound, states);
+        (value, reads)
+    }
+
+    fn looked(
+        &mut self,
+        sides: &mut [Side; 2],
+        (term, frame): (TermId, u32),
+        bound: &[Bound],
+        states: [StateId; 2],
+    ) -> (Result<Value, String>, Vec<Read>, Vec<Look>) {
         self.machine.forget_inputs();
         let joint = &self.coupling.joint;
-        let mut both = Both { joint, sides, states, reads: Vec::new() };
+        let mut both = Both { joint, sides, states, reads: Vec::new(), looks: Vec::new() };
         let value = self.machine.evaluate_with(term, frame, bound, &mut both);
-        (value.map_err(|fault| fault.show(&joint.program).to_string()), both.reads)
+        (value.map_err(|fault| fault.show(&joint.program).to_string()), both.reads, both.looks)
     }
 
     /// The elements of a domain of the joint model, if they can be listed.
@@ -173,7 +214,13 @@ impl<'c> Judge<'c> {
     /// Whether a segment ends in a concrete state.
     pub fn ends(&mut self, sides: &mut [Side; 2], state: StateId) -> bool {
         let Some(formula) = &self.coupling.segment else { return true };
-        self.evaluate(sides, formula, [0, state]).0 == Ok(Value::Boolean(true))
+        if let Some(known) = self.segment.truth(sides, [0, state]) {
+            return known;
+        }
+        let (value, _, looks) = self.looked(sides, (formula.body, formula.frame), &[], [0, state]);
+        let ends = value == Ok(Value::Boolean(true));
+        self.segment.add(&looks, ends);
+        ends
     }
 
     /// Whether each concrete state is either the end of a segment or none: whether it is true or false there.
@@ -183,57 +230,14 @@ impl<'c> Judge<'c> {
             .all(|state| matches!(self.evaluate(sides, formula, [0, state]).0, Ok(Value::Boolean(_))))
     }
 
-    /// The values of a function that is to be the same, as the joint model has them.
-    fn values(&mut self, sides: &mut [Side; 2], index: usize, side: usize, state: StateId) -> Vec<(Vec<Value>, Value)> {
-        let Conjunct::Same { functions, arguments, .. } = &self.coupling.conjuncts[index] else { return Vec::new() };
-        let bridge = &self.coupling.joint.bridges[side];
-        // Nothing of the other machine has this value.
-        let own = |fault: &str| Value::string(format!("{}: {fault}", SIDES[side]));
-        match arguments {
-            Some(all) => {
-                let value = |arguments: &Vec<Value>| {
-                    let there: Option<Vec<Value>> = arguments.iter().map(|value| bridge.back(value)).collect();
-                    let Some(there) = there else { return (arguments.clone(), Value::Undef) };
-                    let value = match sides[side].read(state, functions[side], &there) {
-                        Ok(value) => bridge.over(&value).unwrap_or_else(|| own("an element without a name")),
-                        Err(fault) => own(&fault.show(&sides[side].program).to_string()),
-                    };
-                    (arguments.clone(), value)
-                };
-                all.iter().map(value).collect()
-            }
-            None => {
-                let located = sides[side].located(state, functions[side]);
-                let over = |(arguments, value): (Vec<Value>, Value)| {
-                    let arguments: Option<Vec<Value>> = arguments.iter().map(|value| bridge.over(value)).collect();
-                    let value = bridge.over(&value).unwrap_or_else(|| own("an element without a name"));
-                    (arguments.unwrap_or_else(|| vec![own("an element without a name")]), value)
-                };
-                let all: BTreeMap<Vec<Value>, Value> = located.into_iter().map(over).collect();
-                all.into_iter().collect()
-            }
-        }
-    }
-
-    /// The same by arguments.
+    /// The values of a function that is to be the same, by arguments, as the joint model has them.
     pub fn values_of(
         &mut self,
         sides: &mut [Side; 2],
-        index: usize,
+        conjunct: usize,
         side: usize,
         state: StateId,
     ) -> BTreeMap<Vec<Value>, Value> {
-        self.values(sides, index, side, state).into_iter().collect()
-    }
-
-    fn signature(&mut self, sides: &mut [Side; 2], index: usize, side: usize, state: StateId) -> u32 {
-        if let Some(known) = self.signatures.get(&(index, side, state)) {
-            return *known;
-        }
-        let values = self.values(sides, index, side, state);
-        let next = self.numbers.len() as u32;
-        let number = *self.numbers.entry(values).or_insert(next);
-        self.signatures.insert((index, side, state), number);
-        number
+        same::values(self.coupling, conjunct, sides, side, state)
     }
 }

@@ -180,6 +180,11 @@ impl<'c> Product<'c> {
         number
     }
 
+    /// Whether two states correspond.
+    fn coupled(&mut self, one: StateId, other: StateId) -> bool {
+        self.numbers.contains_key(&(one, other)) || self.judge.coupled(&mut self.sides, [one, other])
+    }
+
     /// Looks at a pair.
     pub fn explore(&mut self, pair: PairId) -> Result<(), Stopped> {
         let (one, other) = self.pairs[pair as usize];
@@ -229,6 +234,9 @@ impl<'c> Product<'c> {
 
     /// The steps of a concrete state.
     pub fn concrete_moves(&mut self, state: StateId) -> Result<Rc<[Move]>, Stopped> {
+        if let Some(known) = self.sides[CONCRETE].known(state)? {
+            return Ok(known);
+        }
         let given = self.given(state);
         let bridge = &self.judge.coupling.joint.bridges[CONCRETE];
         self.sides[CONCRETE].moves(state, &given, &mut self.inputs, bridge)
@@ -329,7 +337,7 @@ impl<'c> Product<'c> {
                 Some(from) if run.m == 0 => product.judge.descends(&mut product.sides, [from, begun], [from, to]),
                 _ => true,
             };
-            if allowed(run.m, &self.judge) && self.judge.coupled(&mut self.sides, [run.to, to]) && goes_down(self) {
+            if allowed(run.m, &self.judge) && self.coupled(run.to, to) && goes_down(self) {
                 matching.push(run.clone());
             }
         }

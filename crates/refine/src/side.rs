@@ -4,6 +4,7 @@
 //! both machines share, so that they can be compared. INVARIANT: a state's moves are all of them, in the order of its alternatives, or
 //! the state has none and [`Stopped`] says why.
 
+mod columns;
 mod followed;
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -25,6 +26,8 @@ use crate::computed::{Computed, Values};
 use crate::joint::Bridge;
 use crate::limited::{Limit, limited};
 use crate::options::Extent;
+use columns::Columns;
+pub(crate) use columns::{Place, ValueId};
 use followed::Followed;
 pub(crate) use followed::Unmade;
 
@@ -122,7 +125,7 @@ pub(crate) struct Side {
     states: Vec<Box<[u64]>>,
     numbers: FxHashMap<Box<[u64]>, StateId>,
     moves: Vec<Option<Rc<[Move]>>>,
-    reads: Vec<FxHashMap<(FunctionId, Vec<Value>), Value>>,
+    columns: Columns,
     /// By function, the term that reads it.
     readers: FxHashMap<FunctionId, Expression>,
     /// Inputs of which bounds leave out values, and their locations at which the initial states or the steps of a state looked.
@@ -171,7 +174,7 @@ impl Side {
             states: Vec::new(),
             numbers: FxHashMap::default(),
             moves: Vec::new(),
-            reads: Vec::new(),
+            columns: Columns::default(),
             readers,
             limited: limited(program, extent),
             looked_at: BTreeMap::new(),
@@ -234,7 +237,6 @@ impl Side {
         self.states.push(state.clone());
         self.numbers.insert(state, number);
         self.moves.push(None);
-        self.reads.push(FxHashMap::default());
         number
     }
 
@@ -324,6 +326,17 @@ impl Side {
         label.into()
     }
 
+    /// The steps of a state, if they have been made.
+    pub fn known(&self, state: StateId) -> Result<Option<Rc<[Move]>>, Stopped> {
+        if self.interrupt.is_raised() {
+            return Err(Stopped::Interrupted);
+        }
+        Ok(match &self.followed {
+            Some(followed) => Some(followed.moves(state)),
+            None => self.moves[state as usize].clone(),
+        })
+    }
+
     /// The steps of a state; `given` are the inputs of the abstract machine that this state determines.
     pub fn moves(
         &mut self,
@@ -332,14 +345,8 @@ impl Side {
         inputs: &mut Inputs,
         bridge: &Bridge,
     ) -> Result<Rc<[Move]>, Stopped> {
-        if self.interrupt.is_raised() {
-            return Err(Stopped::Interrupted);
-        }
-        if let Some(followed) = &self.followed {
-            return Ok(followed.moves(state));
-        }
-        if let Some(known) = &self.moves[state as usize] {
-            return Ok(Rc::clone(known));
+        if let Some(known) = self.known(state)? {
+            return Ok(known);
         }
         let moves = match self.unlabelled(state, given)? {
             Some(moves) => moves,
@@ -434,19 +441,31 @@ impl Side {
         self.ends_at_overflow && matches!(fault.kind, FaultKind::Overflow { .. })
     }
 
-    /// The value of a function in a state.
-    ///
-    /// # Errors
-    /// What evaluation meets.
-    pub fn read(&mut self, state: StateId, function: FunctionId, arguments: &[Value]) -> Result<Value, Box<Fault>> {
-        let key = (function, arguments.to_vec());
-        if let Some(known) = self.reads[state as usize].get(&key) {
-            return Ok(known.clone());
+    /// The number of a function with arguments.
+    pub fn place(&mut self, function: FunctionId, arguments: Vec<Value>) -> Place {
+        self.columns.place(function, arguments)
+    }
+
+    /// The number of what a function is in a state.
+    #[inline]
+    pub fn value_at(&mut self, state: StateId, place: Place) -> ValueId {
+        match self.columns.get(place, state) {
+            Some(known) => known,
+            None => self.look(state, place),
         }
-        let Side { explorer, readers, states, .. } = self;
-        let value = explorer.evaluate_with(&readers[&function], arguments, &states[state as usize])?;
-        self.reads[state as usize].insert(key, value.clone());
-        Ok(value)
+    }
+
+    fn look(&mut self, state: StateId, place: Place) -> ValueId {
+        let Side { explorer, readers, states, columns, program, .. } = self;
+        let (function, arguments) = columns.told(place);
+        let value = explorer.evaluate_with(&readers[function], arguments, &states[state as usize]);
+        let value = value.map_err(|fault| fault.show(program).to_string());
+        columns.note(place, state, states.len(), value)
+    }
+
+    /// What a number stands for: a value, or why there is none.
+    pub fn value(&self, number: ValueId) -> &Result<Value, String> {
+        self.columns.value(number)
     }
 
     /// The value of a term of this machine in a state.
