@@ -27,7 +27,7 @@ pub(crate) fn is_unclear(product: &Product<'_>) -> bool {
     product.nodes.iter().any(|node| match node {
         Node::Answers(end) => end.unclear.is_some(),
         Node::Open(_) => true,
-        Node::Deeds(_) | Node::Choice(_) | Node::Fault => false,
+        Node::Begins(_) | Node::Steps(..) | Node::Inputs(_) | Node::Choice(_) | Node::Fault => false,
     })
 }
 
@@ -46,17 +46,17 @@ pub(crate) fn broken(product: &mut Product<'_>) -> Result<Option<Broken>, Stoppe
             return Ok(None);
         }
         for made in product.concrete_moves(state)?.iter() {
-            match &made.goal {
-                Goal::State(next) if !before.contains_key(next) => {
-                    before.insert(*next, Some((state, made.clone())));
-                    queue.push_back(*next);
+            match made.goal {
+                Goal::State(next) if !before.contains_key(&next) => {
+                    before.insert(next, Some((state, *made)));
+                    queue.push_back(next);
                 }
                 Goal::State(_) | Goal::Open(_) => {}
                 Goal::Fault(_) => {
-                    let mut steps = vec![(state, made.clone())];
+                    let mut steps = vec![(state, *made)];
                     let mut first = state;
                     while let Some(Some((earlier, step))) = before.get(&first) {
-                        steps.push((*earlier, step.clone()));
+                        steps.push((*earlier, *step));
                         first = *earlier;
                     }
                     steps.reverse();

@@ -12,7 +12,8 @@ use rustc_hash::FxHashMap;
 use crate::behind::Broken;
 use crate::coupling::is_fair;
 use crate::game::{Alive, Lost, Solution};
-use crate::product::{Answers, Deed, Node, NodeId, PairId, Product};
+use crate::product::{Answers, Node, NodeId, PairId, Product};
+use crate::readings::Readings;
 use crate::side::{Move, StateId};
 use crate::why::{Differs, Part, why};
 use crate::{ABSTRACT, CONCRETE};
@@ -94,8 +95,8 @@ fn survival(
         return None;
     }
     let survives = match &product.nodes[node as usize] {
-        Node::Deeds(deeds) => {
-            deeds.iter().filter_map(|(_, node)| survival(product, solution, *node, alive, known)).min()
+        Node::Begins(all) | Node::Steps(_, all) | Node::Inputs(all) => {
+            all.iter().filter_map(|node| survival(product, solution, *node, alive, known)).min()
         }
         Node::Choice(ways) => ways.iter().filter_map(|node| survival(product, solution, *node, alive, known)).max(),
         Node::Answers(end) => {
@@ -110,7 +111,8 @@ fn survival(
 
 /// What the concrete machine does from a node that it wins: its steps, and where the diagram ends if it does.
 struct Play<'p> {
-    start: Option<explore::Start>,
+    /// The place of its initial state among all.
+    start: Option<usize>,
     steps: Vec<(StateId, Move)>,
     end: Option<&'p Answers>,
 }
@@ -122,13 +124,15 @@ fn play<'p>(product: &'p Product<'_>, solution: &Solution, node: NodeId, alive: 
     loop {
         let mut of = |node: NodeId| survival(product, solution, node, alive, &mut known);
         match &product.nodes[at as usize] {
-            Node::Deeds(deeds) => {
-                let best = deeds.iter().filter_map(|(deed, node)| Some((of(*node)?, deed, *node)));
-                let Some((_, deed, next)) = best.min_by_key(|(survives, ..)| *survives) else { return play };
-                match deed {
-                    Deed::Begin(start) => play.start = Some(*start),
-                    Deed::Step(from, made) => play.steps.push((*from, made.clone())),
-                    Deed::Inputs => {}
+            node @ (Node::Begins(all) | Node::Steps(_, all) | Node::Inputs(all)) => {
+                let best = all.iter().enumerate().filter_map(|(place, node)| Some((of(*node)?, place, *node)));
+                let Some((_, place, next)) = best.min_by_key(|(survives, ..)| *survives) else { return play };
+                match node {
+                    Node::Begins(_) => play.start = Some(place),
+                    Node::Steps(from, _) => {
+                        play.steps.extend(product.sides[CONCRETE].made(*from).map(|moves| (*from, moves[place])));
+                    }
+                    _ => {}
                 }
                 at = next;
             }
@@ -196,8 +200,7 @@ pub(crate) fn refutation(product: &mut Product<'_>, solution: &Solution) -> Refu
         let play = play(product, solution, node, &survives);
         let (start, steps, end) = (play.start, play.steps, play.end.cloned());
         if let Some(start) = start {
-            let begun = telling.product.begun.iter().find(|(_, _, other)| *other == start);
-            let state = begun.map_or(0, |(_, state, _)| *state);
+            let (_, state, start) = telling.product.begun[start];
             telling.begin(CONCRETE, state, start);
         }
         for (from, made) in &steps {
@@ -208,29 +211,30 @@ pub(crate) fn refutation(product: &mut Product<'_>, solution: &Solution) -> Refu
             return Refutation { runs, segments, ended: Ended::Fault };
         };
         let Some((pair, m)) = best(solution, &end, lost) else {
-            let ended = unmatched(telling.product, &end);
+            let ended = unmatched(telling.product, at, &end);
             let Telling { mut runs, segments, .. } = telling;
-            if end.from.is_none() {
+            if at.is_none() {
                 runs[ABSTRACT] = Run::default();
             }
             return Refutation { runs, segments, ended };
         };
         let (state, _) = telling.product.pairs[pair as usize];
-        match end.from {
+        match at {
             None => {
-                let fitting = telling.product.initial.iter().find(|(_, other, _)| *other == state).cloned();
+                let fitting = telling.product.initial.iter().find(|(_, other, _)| *other == state).copied();
                 if let Some((_, state, start)) = fitting {
                     telling.begin(ABSTRACT, state, start);
                 }
             }
-            Some(from) => {
-                for (from, made) in telling.product.abstract_way(from, state, m, &end.reads) {
+            Some(at) => {
+                let (from, _) = telling.product.pairs[at as usize];
+                for (from, made) in telling.product.abstract_way(from, state, m, end.reads) {
                     telling.step(ABSTRACT, from, &made);
                 }
                 telling.segments.push(Segment { m: m as usize, n: steps.len() });
             }
         }
-        if m == 0 && end.from.is_some() && !solution.turns.is_empty() && telling.product.meets(&end, fair) {
+        if m == 0 && end.n > 0 && !solution.turns.is_empty() && telling.product.meets(&end, fair) {
             fair = (fair + 1) % solution.turns.len();
         }
         if let Some(turn) = visited.iter().position(|other| *other == (pair, fair)) {
@@ -253,16 +257,17 @@ fn best(solution: &Solution, end: &Answers, lost: Option<Lost>) -> Option<(PairI
     waiting.or_else(|| end.answers.iter().max_by_key(|(pair, _)| rank(*pair))).copied()
 }
 
-/// What the abstract machine could have done, none of which matches.
-fn unmatched(product: &mut Product<'_>, end: &Answers) -> Ended {
+/// What the abstract machine could have done from a pair, none of which matches; or at the beginning.
+fn unmatched(product: &mut Product<'_>, at: Option<PairId>, end: &Answers) -> Ended {
+    let at = at.map(|at| product.pairs[at as usize]);
     let mut inputs = Vec::new();
     let mut tried = Vec::new();
     let mut faults = Vec::new();
-    let candidates: Vec<(StateId, u32)> = match end.from {
+    let candidates: Vec<(StateId, u32)> = match at {
         None => product.initial.iter().map(|(_, state, _)| (*state, 0)).collect(),
-        Some(from) => {
+        Some((from, _)) => {
             let most = product.judge.coupling.diagrams.most_abstract(end.n).unwrap_or(1);
-            match product.abstract_runs(from, &end.reads, most) {
+            match product.abstract_runs(from, end.reads, most) {
                 Ok(found) => {
                     faults.extend(found.faults);
                     let free = found.runs.into_iter().filter(|run| run.needs.is_empty());
@@ -285,16 +290,16 @@ fn unmatched(product: &mut Product<'_>, end: &Answers) -> Ended {
     judged.truncate(TRIED);
     for (_, m, state, failing) in judged {
         let mut steps = Vec::new();
-        if let Some(from) = end.from {
-            for (from, made) in product.abstract_way(from, state, m, &end.reads) {
+        if let Some((from, _)) = at {
+            for (from, made) in product.abstract_way(from, state, m, end.reads) {
                 steps.extend(tell(product, ABSTRACT, from, &made));
             }
         }
         let parts =
             failing.into_iter().map(|index| why(&mut product.judge, &mut product.sides, index, [state, end.to]));
         let mut parts: Vec<Part> = parts.collect();
-        if let (0, Some(from), Some(text)) = (m, end.from, product.judge.coupling.variant()) {
-            let (before, after) = ([from, end.begun], [from, end.to]);
+        if let (0, Some((from, begun)), Some(text)) = (m, at, product.judge.coupling.variant()) {
+            let (before, after) = ([from, begun], [from, end.to]);
             if !product.judge.descends(&mut product.sides, before, after) {
                 let values = product.judge.descent(&mut product.sides, before, after);
                 let values = ["before", "after"].map(str::to_string).into_iter().zip(values).collect();
@@ -305,7 +310,7 @@ fn unmatched(product: &mut Product<'_>, end: &Answers) -> Ended {
         tried.push(Tried { steps, parts });
     }
     let program = &product.judge.coupling.joint.program;
-    for (location, values) in end.reads.iter() {
+    for (location, values) in product.readings.get(end.reads) {
         let (input, arguments) = &product.inputs.told[*location as usize];
         if is_fair(*input) {
             continue;
@@ -322,10 +327,10 @@ fn unmatched(product: &mut Product<'_>, end: &Answers) -> Ended {
 
 /// The run of the concrete machine to a step that it cannot make, whatever the abstract machine answers.
 pub(crate) fn breaks(product: &mut Product<'_>, broken: &Broken) -> Refutation {
-    let (_, state, start) = product.begun[broken.begun].clone();
+    let (_, state, start) = product.begun[broken.begun];
     let mut telling = Telling { product, runs: Default::default(), segments: Vec::new() };
     telling.begin(CONCRETE, state, start);
-    if let Some((_, state, start)) = telling.product.initial.first().cloned() {
+    if let Some((_, state, start)) = telling.product.initial.first().copied() {
         telling.begin(ABSTRACT, state, start);
     }
     for (from, made) in &broken.steps {
@@ -337,20 +342,12 @@ pub(crate) fn breaks(product: &mut Product<'_>, broken: &Broken) -> Refutation {
 
 /// Why no initial states correspond.
 pub(crate) fn no_initial_pair(product: &mut Product<'_>) -> Refutation {
-    let (_, state, start) = product.begun[0].clone();
-    let end = Answers {
-        from: None,
-        begun: state,
-        to: state,
-        reads: Default::default(),
-        n: 0,
-        answers: Vec::new(),
-        unclear: None,
-    };
-    let ended = unmatched(product, &end);
+    let (_, state, start) = product.begun[0];
+    let end = Answers { to: state, reads: Readings::NONE, n: 0, answers: Box::default(), unclear: None };
+    let ended = unmatched(product, None, &end);
     let mut telling = Telling { product, runs: Default::default(), segments: Vec::new() };
     telling.begin(CONCRETE, state, start);
-    if let Some((_, state, start)) = telling.product.initial.first().cloned() {
+    if let Some((_, state, start)) = telling.product.initial.first().copied() {
         telling.begin(ABSTRACT, state, start);
     }
     let Telling { runs, segments, .. } = telling;
@@ -369,12 +366,12 @@ pub(crate) fn used(product: &Product<'_>, solution: &Solution) -> BTreeMap<(u32,
             continue;
         }
         match &product.nodes[node as usize] {
-            Node::Deeds(deeds) => queue.extend(deeds.iter().map(|(_, node)| *node)),
+            Node::Begins(all) | Node::Steps(_, all) | Node::Inputs(all) => queue.extend(all),
             Node::Choice(ways) => queue.extend(ways.iter().find(|node| solution.wins(product, **node, &alive))),
             Node::Answers(end) => {
                 let fit = end.answers.iter().filter(|(pair, m)| alive(end, *pair, *m));
                 let Some((pair, m)) = fit.min_by_key(|(_, m)| (*m == 0, *m)) else { continue };
-                if end.from.is_some() {
+                if end.n > 0 {
                     *used.entry((*m, end.n)).or_default() += 1;
                 }
                 if !std::mem::replace(&mut seen[*pair as usize], true) {

@@ -45,7 +45,7 @@ impl Rules {
     }
 
     fn allow(&self, end: &Answers, m: u32) -> bool {
-        end.from.is_none() || (self.least_m <= m && m <= self.most_m && end.n <= self.most_n)
+        end.n == 0 || (self.least_m <= m && m <= self.most_m && end.n <= self.most_n)
     }
 }
 
@@ -105,7 +105,9 @@ fn wins(product: &Product<'_>, node: NodeId, rules: &Rules, alive: Alive<'_>, kn
         return *known;
     }
     let won = match &product.nodes[node as usize] {
-        Node::Deeds(deeds) => deeds.iter().all(|(_, node)| wins(product, *node, rules, alive, known)),
+        Node::Begins(all) | Node::Steps(_, all) | Node::Inputs(all) => {
+            all.iter().all(|node| wins(product, *node, rules, alive, known))
+        }
         Node::Choice(ways) => ways.iter().any(|node| wins(product, *node, rules, alive, known)),
         Node::Answers(end) => {
             let answered = |(pair, m): &(PairId, u32)| rules.allow(end, *m) && alive(end, *pair, *m);
@@ -114,7 +116,7 @@ fn wins(product: &Product<'_>, node: NodeId, rules: &Rules, alive: Alive<'_>, kn
         Node::Fault => false,
         Node::Open(_) => rules.hopeful,
     };
-    if matches!(product.nodes[node as usize], Node::Deeds(_) | Node::Choice(_)) {
+    if !product.nodes[node as usize].behind().is_empty() {
         known.insert(node, won);
     }
     won
@@ -128,11 +130,10 @@ fn each_answer(product: &Product<'_>, node: NodeId, visit: &mut dyn FnMut(PairId
         if !seen.insert(node) {
             continue;
         }
-        match &product.nodes[node as usize] {
-            Node::Deeds(deeds) => open.extend(deeds.iter().map(|(_, node)| *node)),
-            Node::Choice(ways) => open.extend(ways),
-            Node::Answers(end) => end.answers.iter().for_each(|(pair, m)| visit(*pair, *m)),
-            Node::Fault | Node::Open(_) => {}
+        let node = &product.nodes[node as usize];
+        open.extend(node.behind());
+        if let Node::Answers(end) = node {
+            end.answers.iter().for_each(|(pair, m)| visit(*pair, *m));
         }
     }
 }

@@ -26,6 +26,7 @@ mod limited;
 mod options;
 mod preserve;
 mod product;
+mod readings;
 mod refine;
 mod report;
 mod short_search;

@@ -18,7 +18,8 @@ use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::coupling::{FairTerm, number_of_fair};
 use crate::judge::Judge;
-use crate::side::{Goal, Inputs, Label, Move, Side, StateId, Stopped, Unmade};
+use crate::readings::{Readings, Reads, ReadsId};
+use crate::side::{Goal, Inputs, LabelId, Move, Side, StateId, Stopped, Unmade};
 use crate::{ABSTRACT, CONCRETE};
 
 /// The number of a pair.
@@ -29,11 +30,8 @@ pub(crate) type NodeId = u32;
 /// LIMIT: so many values of inputs that the concrete machine did not look at are tried in one place.
 const VALUATIONS: usize = 1 << 12;
 
-/// By location of an input the values that it had in a diagram.
-pub(crate) type Reads = Rc<BTreeMap<u32, BTreeSet<u32>>>;
-
 /// Why it is not known what happens.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub(crate) enum Unclear {
     /// A step of a side cannot be gone through.
     Unbounded(usize, Unbounded),
@@ -45,43 +43,52 @@ pub(crate) enum Unclear {
     Bounded(FunctionId),
 }
 
-/// What the concrete machine does, or its environment.
-#[derive(Debug, Clone)]
-pub(crate) enum Deed {
-    /// It begins.
-    Begin(Start),
-    /// It makes a step.
-    Step(StateId, Move),
-    /// The inputs that it did not look at have these values.
-    Inputs,
-}
-
 /// What may happen.
-#[derive(Debug, Clone)]
+#[derive(Debug)]
 pub(crate) enum Node {
-    /// Each of these may be done, and must be answered.
-    Deeds(Vec<(Deed, NodeId)>),
+    /// The concrete machine begins in one of its initial states, in their order; each must be answered.
+    Begins(Box<[NodeId]>),
+    /// It makes one of the steps of a state, in their order; each must be answered.
+    Steps(StateId, Box<[NodeId]>),
+    /// The inputs that it did not look at have some values; all must be answered.
+    Inputs(Box<[NodeId]>),
     /// The diagram may end here, or go on.
-    Choice(Vec<NodeId>),
+    Choice([NodeId; 2]),
     /// The diagram ends after `n` concrete steps; each answer leads to a pair, after so many abstract steps.
-    Answers(Box<Answers>),
+    Answers(Answers),
     /// The concrete machine cannot make its step.
     Fault,
     /// Not known.
     Open(Unclear),
 }
 
+impl Node {
+    /// What must all be answered, if that is what it says.
+    pub fn all(&self) -> Option<&[NodeId]> {
+        match self {
+            Node::Begins(nodes) | Node::Steps(_, nodes) | Node::Inputs(nodes) => Some(nodes),
+            Node::Choice(_) | Node::Answers(_) | Node::Fault | Node::Open(_) => None,
+        }
+    }
+
+    /// The nodes behind it.
+    pub fn behind(&self) -> &[NodeId] {
+        match self {
+            Node::Choice(ways) => ways,
+            _ => self.all().unwrap_or_default(),
+        }
+    }
+}
+
 /// See [`Node::Answers`].
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
 pub(crate) struct Answers {
-    /// The abstract state that the diagram began in; none at the beginning of the runs.
-    pub from: Option<StateId>,
-    /// The concrete states that it begins and ends in.
-    pub begun: StateId,
+    /// The concrete state that it ends in.
     pub to: StateId,
-    pub reads: Reads,
+    pub reads: ReadsId,
+    /// 0 at the beginning of the runs.
     pub n: u32,
-    pub answers: Vec<(PairId, u32)>,
+    pub answers: Box<[(PairId, u32)]>,
     /// There may be more.
     pub unclear: Option<Unclear>,
 }
@@ -111,17 +118,22 @@ pub(crate) struct Product<'c> {
     pub sides: [Side; 2],
     pub judge: Judge<'c>,
     pub inputs: Inputs,
+    pub readings: Readings,
     pub pairs: Vec<(StateId, StateId)>,
     numbers: FxHashMap<(StateId, StateId), PairId>,
     pub trees: Vec<Option<NodeId>>,
     pub nodes: Vec<Node>,
+    /// Diagrams that end alike end in one node.
+    ends: FxHashMap<Answers, NodeId>,
     pub root: NodeId,
     /// The concrete state that the diagrams looked at begin in.
     at: StateId,
+    /// What the abstract machine may do in them, with these inputs and so many steps.
+    runs: FxHashMap<(StateId, ReadsId, u32), Rc<AbstractRuns>>,
     /// The abstract machine's initial states.
-    pub initial: Vec<(Label, StateId, Start)>,
+    pub initial: Vec<(LabelId, StateId, Start)>,
     /// The concrete machine's initial states.
-    pub begun: Vec<(Label, StateId, Start)>,
+    pub begun: Vec<(LabelId, StateId, Start)>,
     /// By condition of fairness: what stands in the label of a step in which it is true.
     met: Vec<(u32, u32)>,
 }
@@ -129,7 +141,7 @@ pub(crate) struct Product<'c> {
 /// A state, the place of the one before it, and the step between them.
 type Reached = (StateId, usize, Option<(StateId, Move)>);
 
-type Memo = FxHashMap<(StateId, Reads, u32), NodeId>;
+type Memo = FxHashMap<(StateId, ReadsId, u32), NodeId>;
 
 impl<'c> Product<'c> {
     /// The initial pairs.
@@ -144,24 +156,27 @@ impl<'c> Product<'c> {
             sides,
             judge,
             inputs,
+            readings: Readings::default(),
             pairs: Vec::new(),
             numbers: FxHashMap::default(),
             trees: Vec::new(),
             nodes: Vec::new(),
+            ends: FxHashMap::default(),
             root: 0,
             at: 0,
+            runs: FxHashMap::default(),
             initial,
             begun,
             met,
         };
-        let mut deeds = Vec::new();
-        for (label, state, start) in product.begun.clone() {
-            let reads = with_label(&Reads::default(), &label);
-            let runs = product.initial_runs(&reads);
-            let Ok(node) = product.end(None, state, &reads, 0, &runs, None) else { unreachable!("no step is made") };
-            deeds.push((Deed::Begin(start), node));
+        let mut nodes = Vec::new();
+        for (label, state, _) in product.begun.clone() {
+            let reads = product.readings.with(Readings::NONE, label, &product.inputs);
+            let runs = product.initial_runs(reads);
+            let Ok(node) = product.end(None, state, reads, 0, &runs, None) else { unreachable!("no step is made") };
+            nodes.push(node);
         }
-        product.root = product.node(Node::Deeds(deeds));
+        product.root = product.node(Node::Begins(nodes.into()));
         product
     }
 
@@ -189,7 +204,8 @@ impl<'c> Product<'c> {
     pub fn explore(&mut self, pair: PairId) -> Result<(), Stopped> {
         let (one, other) = self.pairs[pair as usize];
         self.at = other;
-        let tree = self.go_on(one, other, &Reads::default(), 0, &mut Memo::default())?;
+        self.runs.clear();
+        let tree = self.go_on(one, other, Readings::NONE, 0, &mut Memo::default())?;
         self.trees[pair as usize] = Some(tree);
         Ok(())
     }
@@ -224,12 +240,12 @@ impl<'c> Product<'c> {
     /// Whether a condition of fairness was true in some step of a diagram.
     pub fn meets(&self, end: &Answers, fair: usize) -> bool {
         let (place, met) = self.met[fair];
-        end.reads.get(&place).is_some_and(|values| values.contains(&met))
+        self.readings.get(end.reads).get(&place).is_some_and(|values| values.contains(&met))
     }
 
     /// Whether a condition of fairness is true in a step.
     pub fn meets_in(&self, made: &Move, fair: usize) -> bool {
-        made.label.contains(&self.met[fair])
+        self.inputs.entries(made.label).contains(&self.met[fair])
     }
 
     /// The steps of a concrete state.
@@ -265,31 +281,34 @@ impl<'c> Product<'c> {
         &mut self,
         from: StateId,
         state: StateId,
-        reads: &Reads,
+        reads: ReadsId,
         n: u32,
         memo: &mut Memo,
     ) -> Result<NodeId, Stopped> {
-        let mut deeds = Vec::new();
-        for made in self.concrete_moves(state)?.iter() {
-            let node = match &made.goal {
+        let moves = self.concrete_moves(state)?;
+        let mut nodes = Vec::with_capacity(moves.len());
+        for made in moves.iter() {
+            nodes.push(match made.goal {
                 Goal::Fault(_) => self.node(Node::Fault),
-                Goal::Open(unbounded) => self.node(Node::Open(Unclear::Unbounded(CONCRETE, *unbounded))),
+                Goal::Open(open) => {
+                    let unbounded = self.sides[CONCRETE].unbounded(open);
+                    self.node(Node::Open(Unclear::Unbounded(CONCRETE, unbounded)))
+                }
                 Goal::State(next) => {
-                    let reads = with_label(reads, &made.label);
-                    let key = (*next, Rc::clone(&reads), n + 1);
+                    let reads = self.readings.with(reads, made.label, &self.inputs);
+                    let key = (next, reads, n + 1);
                     match memo.get(&key) {
                         Some(node) => *node,
                         None => {
-                            let node = self.reached(from, *next, &reads, n + 1, memo)?;
+                            let node = self.reached(from, next, reads, n + 1, memo)?;
                             memo.insert(key, node);
                             node
                         }
                     }
                 }
-            };
-            deeds.push((Deed::Step(state, made.clone()), node));
+            });
         }
-        Ok(self.node(Node::Deeds(deeds)))
+        Ok(self.node(Node::Steps(state, nodes.into())))
     }
 
     /// The concrete machine has reached a state in a diagram.
@@ -297,7 +316,7 @@ impl<'c> Product<'c> {
         &mut self,
         from: StateId,
         state: StateId,
-        reads: &Reads,
+        reads: ReadsId,
         n: u32,
         memo: &mut Memo,
     ) -> Result<NodeId, Stopped> {
@@ -308,7 +327,14 @@ impl<'c> Product<'c> {
         let goes_on = n < most && !(has_end && ends);
         match longest {
             Some(longest) => {
-                let runs = self.abstract_runs(from, reads, longest)?;
+                let runs = match self.runs.get(&(from, reads, longest)) {
+                    Some(known) => Rc::clone(known),
+                    None => {
+                        let runs = Rc::new(self.abstract_runs(from, reads, longest)?);
+                        self.runs.insert((from, reads, longest), Rc::clone(&runs));
+                        runs
+                    }
+                };
                 self.end(Some(from), state, reads, n, &runs, goes_on.then_some(memo))
             }
             None if goes_on => self.go_on(from, state, reads, n, memo),
@@ -324,7 +350,7 @@ impl<'c> Product<'c> {
         &mut self,
         from: Option<StateId>,
         to: StateId,
-        reads: &Reads,
+        reads: ReadsId,
         n: u32,
         runs: &AbstractRuns,
         mut memo: Option<&mut Memo>,
@@ -338,32 +364,17 @@ impl<'c> Product<'c> {
                 _ => true,
             };
             if allowed(run.m, &self.judge) && self.coupled(run.to, to) && goes_down(self) {
-                matching.push(run.clone());
+                matching.push(run);
             }
         }
-        let asked: BTreeSet<u32> = matching.iter().flat_map(|run| &run.needs).map(|(location, _)| *location).collect();
-        let mut valuations: Vec<BTreeMap<u32, u32>> = vec![BTreeMap::new()];
-        for location in asked {
-            let values = &runs.values[&location];
-            if valuations.len() * values.len() > VALUATIONS {
-                return Ok(self.node(Node::Open(Unclear::Valuations)));
-            }
-            valuations = valuations
-                .iter()
-                .flat_map(|before| {
-                    values.iter().map(|value| {
-                        let mut with = before.clone();
-                        with.insert(location, *value);
-                        with
-                    })
-                })
-                .collect();
-        }
-        let mut deeds = Vec::new();
+        let Some(valuations) = valuations(&matching, runs) else {
+            return Ok(self.node(Node::Open(Unclear::Valuations)));
+        };
+        let mut nodes = Vec::new();
         let mut seen = FxHashSet::default();
         for valuation in valuations {
             let fits =
-                |run: &&AbstractRun| run.needs.iter().all(|(location, value)| valuation.get(location) == Some(value));
+                |run: &&&AbstractRun| run.needs.iter().all(|(location, value)| valuation.get(location) == Some(value));
             let mut answers: Vec<(PairId, u32)> = Vec::new();
             for run in matching.iter().filter(fits) {
                 let pair = self.pair((run.to, to));
@@ -375,26 +386,34 @@ impl<'c> Product<'c> {
             if !seen.insert(answers.clone()) && memo.is_none() {
                 continue;
             }
-            let mut reads = reads.as_ref().clone();
-            reads.extend(valuation.iter().map(|(location, value)| (*location, BTreeSet::from([*value]))));
-            let reads = Rc::new(reads);
-            let node = Answers { from, begun, to, reads: Rc::clone(&reads), n, answers, unclear: runs.unclear };
-            let mut node = self.node(Node::Answers(Box::new(node)));
+            let reads = self.readings.where_unread(reads, &valuation);
+            let ending = Answers { to, reads, n, answers: answers.into(), unclear: runs.unclear };
+            let mut node = self.ending(ending);
             if let (Some(from), Some(memo)) = (from, memo.as_deref_mut()) {
-                let further = self.go_on(from, to, &reads, n, memo)?;
-                node = self.node(Node::Choice(vec![node, further]));
+                let further = self.go_on(from, to, reads, n, memo)?;
+                node = self.node(Node::Choice([node, further]));
             }
-            deeds.push((Deed::Inputs, node));
+            nodes.push(node);
         }
-        Ok(match deeds[..] {
-            [(_, only)] => only,
-            _ => self.node(Node::Deeds(deeds)),
+        Ok(match nodes[..] {
+            [only] => only,
+            _ => self.node(Node::Inputs(nodes.into())),
         })
+    }
+
+    /// The node of an end.
+    fn ending(&mut self, end: Answers) -> NodeId {
+        if let Some(known) = self.ends.get(&end) {
+            return *known;
+        }
+        let node = self.node(Node::Answers(end.clone()));
+        self.ends.insert(end, node);
+        node
     }
 
     /// What bounds leave out of the steps of an abstract state, or of the abstract machine's initial states, in a diagram with these
     /// inputs. An input at which the concrete machine did not look has any value, of which those that were tried must be answered, too.
-    fn left_out(&self, at: Option<StateId>, reads: &Reads) -> Option<Unclear> {
+    fn left_out(&self, at: Option<StateId>, reads: ReadsId) -> Option<Unclear> {
         let coupling = self.judge.coupling;
         let bridge = &coupling.joint.bridges[ABSTRACT];
         let mut looked = self.sides[ABSTRACT].limited_at(at);
@@ -404,17 +423,18 @@ impl<'c> Product<'c> {
             }
             let arguments: Option<Vec<Value>> = location.arguments.iter().map(|value| bridge.over(value)).collect();
             let place = arguments.and_then(|arguments| self.inputs.location(location.function.0, arguments));
-            let had = place.and_then(|place| reads.get(&place)).into_iter().flatten();
+            let had = place.and_then(|place| self.readings.get(reads).get(&place)).into_iter().flatten();
             let mut own = had.filter_map(|value| bridge.back(&self.inputs.told_values[*value as usize]));
             own.any(|value| limit.leaves_out(&value))
         });
         lacking.map(|(location, _)| Unclear::Bounded(location.function))
     }
 
-    fn initial_runs(&mut self, reads: &Reads) -> AbstractRuns {
+    fn initial_runs(&mut self, reads: ReadsId) -> AbstractRuns {
         let mut found = AbstractRuns { unclear: self.left_out(None, reads), ..AbstractRuns::default() };
         for (label, state, _) in self.initial.clone() {
-            if let Some(needs) = fitting(&label, reads, &[], &mut found.values) {
+            let (label, reads) = (self.inputs.entries(label), self.readings.get(reads));
+            if let Some(needs) = fitting(label, reads, &[], &mut found.values) {
                 found.runs.push(AbstractRun { to: state, m: 0, needs });
             }
         }
@@ -422,7 +442,7 @@ impl<'c> Product<'c> {
     }
 
     /// The runs of the abstract machine in a diagram, of at most so many steps.
-    pub fn abstract_runs(&mut self, from: StateId, reads: &Reads, most: u32) -> Result<AbstractRuns, Stopped> {
+    pub fn abstract_runs(&mut self, from: StateId, reads: ReadsId, most: u32) -> Result<AbstractRuns, Stopped> {
         let mut found = AbstractRuns::default();
         let mut last = vec![AbstractRun { to: from, m: 0, needs: Vec::new() }];
         found.runs.extend(last.clone());
@@ -433,18 +453,22 @@ impl<'c> Product<'c> {
                 let moves = self.abstract_moves(run.to)?;
                 found.unclear = found.unclear.or(self.left_out(Some(run.to), reads));
                 for made in moves.iter() {
-                    let Some(needs) = fitting(&made.label, reads, &run.needs, &mut found.values) else { continue };
-                    match &made.goal {
+                    let (label, reads) = (self.inputs.entries(made.label), self.readings.get(reads));
+                    let Some(needs) = fitting(label, reads, &run.needs, &mut found.values) else { continue };
+                    match made.goal {
                         Goal::State(to) => {
-                            let run = AbstractRun { to: *to, m, needs };
+                            let run = AbstractRun { to, m, needs };
                             if seen.insert(run.clone()) {
                                 next.push(run);
                             }
                         }
                         Goal::Fault(fault) => {
-                            found.faults.insert(fault.clone());
+                            found.faults.insert(self.sides[ABSTRACT].fault(fault).clone());
                         }
-                        Goal::Open(unbounded) => found.unclear = Some(Unclear::Unbounded(ABSTRACT, *unbounded)),
+                        Goal::Open(open) => {
+                            let unbounded = self.sides[ABSTRACT].unbounded(open);
+                            found.unclear = Some(Unclear::Unbounded(ABSTRACT, unbounded));
+                        }
                     }
                 }
             }
@@ -455,20 +479,20 @@ impl<'c> Product<'c> {
     }
 
     /// The steps of the abstract machine from one state to another in a diagram with these inputs.
-    pub fn abstract_way(&mut self, from: StateId, to: StateId, m: u32, reads: &Reads) -> Vec<(StateId, Move)> {
+    pub fn abstract_way(&mut self, from: StateId, to: StateId, m: u32, reads: ReadsId) -> Vec<(StateId, Move)> {
         let mut layers: Vec<Vec<Reached>> = vec![vec![(from, 0, None)]];
         for _ in 0..m {
             let mut next: Vec<Reached> = Vec::new();
             for (place, (state, ..)) in layers[layers.len() - 1].clone().into_iter().enumerate() {
                 let Ok(moves) = self.abstract_moves(state) else { return Vec::new() };
                 for made in moves.iter() {
-                    let fits =
-                        fitting(&made.label, reads, &[], &mut BTreeMap::new()).is_some_and(|needs| needs.is_empty());
-                    if let Goal::State(there) = &made.goal
+                    let (label, reads) = (self.inputs.entries(made.label), self.readings.get(reads));
+                    let fits = fitting(label, reads, &[], &mut BTreeMap::new()).is_some_and(|needs| needs.is_empty());
+                    if let Goal::State(there) = made.goal
                         && fits
-                        && !next.iter().any(|(other, ..)| other == there)
+                        && !next.iter().any(|(other, ..)| *other == there)
                     {
-                        next.push((*there, place, Some((state, made.clone()))));
+                        next.push((there, place, Some((state, *made))));
                     }
                 }
             }
@@ -479,7 +503,7 @@ impl<'c> Product<'c> {
         let Some(mut place) = layers[last].iter().position(|(state, ..)| *state == to) else { return way };
         for layer in layers.iter().rev() {
             let (_, before, made) = &layer[place];
-            way.extend(made.clone());
+            way.extend(*made);
             place = *before;
         }
         way.reverse();
@@ -487,21 +511,28 @@ impl<'c> Product<'c> {
     }
 }
 
-/// What was read before and in a step.
-fn with_label(reads: &Reads, label: &Label) -> Reads {
-    if label.is_empty() {
-        return Rc::clone(reads);
+/// The values of inputs that the concrete machine did not look at and matching runs need; none if there are too many.
+fn valuations(matching: &[&AbstractRun], runs: &AbstractRuns) -> Option<Vec<BTreeMap<u32, u32>>> {
+    let asked: BTreeSet<u32> = matching.iter().flat_map(|run| &run.needs).map(|(location, _)| *location).collect();
+    let mut valuations = vec![BTreeMap::new()];
+    for location in asked {
+        let values = &runs.values[&location];
+        if valuations.len() * values.len() > VALUATIONS {
+            return None;
+        }
+        let with = |before: &BTreeMap<u32, u32>, value: u32| {
+            let mut with = before.clone();
+            with.insert(location, value);
+            with
+        };
+        valuations = valuations.iter().flat_map(|before| values.iter().map(|value| with(before, *value))).collect();
     }
-    let mut all = reads.as_ref().clone();
-    for (location, value) in label.iter() {
-        all.entry(*location).or_default().insert(*value);
-    }
-    Rc::new(all)
+    Some(valuations)
 }
 
 /// What an abstract step needs besides what it needed before, if its inputs can have these values.
 fn fitting(
-    label: &Label,
+    label: &[(u32, u32)],
     reads: &Reads,
     before: &[(u32, u32)],
     values: &mut BTreeMap<u32, BTreeSet<u32>>,

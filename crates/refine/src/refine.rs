@@ -277,18 +277,12 @@ fn unclear(product: &Product<'_>, whys: &mut Whys) {
         if std::mem::replace(&mut seen[node as usize], true) {
             continue;
         }
-        let unclear = match &product.nodes[node as usize] {
-            Node::Deeds(deeds) => {
-                open.extend(deeds.iter().map(|(_, node)| *node));
-                None
-            }
-            Node::Choice(ways) => {
-                open.extend(ways);
-                None
-            }
+        let node = &product.nodes[node as usize];
+        open.extend(node.behind());
+        let unclear = match node {
             Node::Answers(end) => end.unclear,
             Node::Open(unclear) => Some(*unclear),
-            Node::Fault => None,
+            Node::Begins(_) | Node::Steps(..) | Node::Inputs(_) | Node::Choice(_) | Node::Fault => None,
         };
         if let Some(unclear) = unclear {
             whys.add(why_of(product, unclear));

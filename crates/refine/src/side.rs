@@ -4,18 +4,17 @@
 //! both machines share, so that they can be compared. INVARIANT: a state's moves are all of them, in the order of its alternatives, or
 //! the state has none and [`Stopped`] says why.
 
-mod columns;
 mod followed;
+mod looked;
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::hash::{Hash, Hasher};
 use std::ops::ControlFlow;
 use std::rc::Rc;
 use std::sync::Arc;
 
 use explore::{
-    Explorer, Interner, Outcome, Path, Reading, Settings, Start, Told, Trouble, Truth, Unbounded, Visitor, Widening,
-    input_values,
+    Explorer, Interner, Numbered, Outcome, Path, Reading, Settings, Start, Told, Trouble, Truth, Unbounded, Visitor,
+    Widening, input_values,
 };
 use machine::{Fault, FaultKind, Interrupt, Location, Value};
 use program::{Expression, FunctionId, Program, PropertyKind};
@@ -26,10 +25,10 @@ use crate::computed::{Computed, Values};
 use crate::joint::Bridge;
 use crate::limited::{Limit, limited};
 use crate::options::Extent;
-use columns::Columns;
-pub(crate) use columns::{Place, ValueId};
 use followed::Followed;
 pub(crate) use followed::Unmade;
+use looked::Looked;
+pub(crate) use looked::{Place, ValueId};
 
 /// The number of a state of one machine.
 pub type StateId = u32;
@@ -37,7 +36,10 @@ pub type StateId = u32;
 /// The inputs that a step read and that both machines have: numbers of locations with numbers of values, ascending.
 pub(crate) type Label = Rc<[(u32, u32)]>;
 
-/// Numbers for the locations and values of inputs, in the joint model.
+/// The number of a [`Label`].
+pub(crate) type LabelId = u32;
+
+/// Numbers for the locations and values of inputs, in the joint model, and for the labels of steps.
 #[derive(Debug, Default)]
 pub(crate) struct Inputs {
     locations: FxHashMap<(u32, Vec<Value>), u32>,
@@ -45,6 +47,8 @@ pub(crate) struct Inputs {
     /// By number, for telling.
     pub told: Vec<(u32, Vec<Value>)>,
     pub told_values: Vec<Value>,
+    labels: FxHashMap<Label, LabelId>,
+    told_labels: Vec<Label>,
 }
 
 impl Inputs {
@@ -67,33 +71,39 @@ impl Inputs {
         }
         (location, number)
     }
-}
 
-/// Where a step leads.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) enum Goal {
-    /// To a state.
-    State(StateId),
-    /// It cannot be made.
-    Fault(String),
-    /// What it comes to cannot be gone through.
-    Open(Unbounded),
-}
+    /// The number of a label with these entries.
+    pub fn label(&mut self, mut entries: Vec<(u32, u32)>) -> LabelId {
+        entries.sort_unstable();
+        let next = self.told_labels.len() as LabelId;
+        let Inputs { labels, told_labels, .. } = self;
+        *labels.entry(entries.into()).or_insert_with_key(|label| {
+            told_labels.push(Rc::clone(label));
+            next
+        })
+    }
 
-impl Hash for Goal {
-    fn hash<H: Hasher>(&self, hasher: &mut H) {
-        match self {
-            Goal::State(state) => state.hash(hasher),
-            Goal::Fault(fault) => fault.hash(hasher),
-            Goal::Open(unbounded) => unbounded.span.start.hash(hasher),
-        }
+    /// The label of a number.
+    pub fn entries(&self, label: LabelId) -> &Label {
+        &self.told_labels[label as usize]
     }
 }
 
+/// Where a step leads.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub(crate) enum Goal {
+    /// To a state.
+    State(StateId),
+    /// It cannot be made: the number of a fault.
+    Fault(u32),
+    /// What it comes to cannot be gone through: the number of a reason.
+    Open(u32),
+}
+
 /// A step.
-#[derive(Debug, Clone, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(crate) struct Move {
-    pub label: Label,
+    pub label: LabelId,
     pub goal: Goal,
 }
 
@@ -106,6 +116,31 @@ pub(crate) enum Stopped {
     Interrupted,
     /// One state has more steps than may be made.
     Many,
+}
+
+/// Things of which there are few, each with a number.
+#[derive(Debug)]
+struct Kinds<T>(Vec<T>);
+
+impl<T> Default for Kinds<T> {
+    fn default() -> Kinds<T> {
+        Kinds(Vec::new())
+    }
+}
+
+impl<T: PartialEq> Kinds<T> {
+    fn number(&mut self, kind: T) -> u32 {
+        let known = self.0.iter().position(|other| *other == kind);
+        let number = known.unwrap_or_else(|| {
+            self.0.push(kind);
+            self.0.len() - 1
+        });
+        number as u32
+    }
+
+    fn get(&self, number: u32) -> &T {
+        &self.0[number as usize]
+    }
 }
 
 /// One of the two machines.
@@ -122,10 +157,11 @@ pub(crate) struct Side {
     computed: Option<Computed>,
     /// Conditions that states which count satisfy.
     assumed: usize,
-    states: Vec<Box<[u64]>>,
-    numbers: FxHashMap<Box<[u64]>, StateId>,
+    states: Numbered,
     moves: Vec<Option<Rc<[Move]>>>,
-    columns: Columns,
+    faults: Kinds<String>,
+    opens: Kinds<Unbounded>,
+    looked: Looked,
     /// By function, the term that reads it.
     readers: FxHashMap<FunctionId, Expression>,
     /// Inputs of which bounds leave out values, and their locations at which the initial states or the steps of a state looked.
@@ -163,6 +199,7 @@ impl Side {
         let assumed = settings.conditions.len();
         settings.read_in_steps = computed.as_ref().map(Computed::readers).unwrap_or_default();
         let explorer = Explorer::new(program, settings, widening, &Arc::<Interner>::default())?;
+        let words = explorer.words();
         Ok(Side {
             place,
             program: Arc::clone(program),
@@ -171,10 +208,11 @@ impl Side {
             shared: FxHashMap::default(),
             computed,
             assumed,
-            states: Vec::new(),
-            numbers: FxHashMap::default(),
+            states: Numbered::new(words),
             moves: Vec::new(),
-            columns: Columns::default(),
+            faults: Kinds::default(),
+            opens: Kinds::default(),
+            looked: Looked::default(),
             readers,
             limited: limited(program, extent),
             looked_at: BTreeMap::new(),
@@ -226,17 +264,24 @@ impl Side {
 
     /// The packed state of a number.
     pub fn packed(&self, state: StateId) -> Box<[u64]> {
-        self.states[state as usize].clone()
+        self.states.get(state).into()
     }
 
-    fn number(&mut self, state: Box<[u64]>) -> StateId {
-        if let Some(known) = self.numbers.get(&state) {
-            return *known;
+    /// A fault that some step leads to.
+    pub fn fault(&self, fault: u32) -> &String {
+        self.faults.get(fault)
+    }
+
+    /// Why some step cannot be gone through.
+    pub fn unbounded(&self, open: u32) -> Unbounded {
+        *self.opens.get(open)
+    }
+
+    fn number(&mut self, state: &[u64]) -> StateId {
+        let (number, is_new) = self.states.number(state);
+        if is_new {
+            self.moves.push(None);
         }
-        let number = self.states.len() as StateId;
-        self.states.push(state.clone());
-        self.numbers.insert(state, number);
-        self.moves.push(None);
         number
     }
 
@@ -251,7 +296,7 @@ impl Side {
     }
 
     /// The initial states, each with the inputs that it read.
-    pub fn initial(&mut self, inputs: &mut Inputs, bridge: &Bridge) -> Vec<(Label, StateId, Start)> {
+    pub fn initial(&mut self, inputs: &mut Inputs, bridge: &Bridge) -> Vec<(LabelId, StateId, Start)> {
         let starts: Vec<(Box<[u64]>, Start)> =
             self.explorer.initial().iter().map(|(state, start)| (state.into(), start)).collect();
         // With other values there may be states that the assumptions admit: those that were left out count, too.
@@ -269,61 +314,43 @@ impl Side {
             if !self.is_assumed(&state) {
                 continue;
             }
-            let label = self.label_of_inputs(&told.inputs, inputs, bridge);
-            let state = self.number(state);
-            if seen.insert((Rc::clone(&label), state)) {
+            let label = self.entries(&told.inputs, inputs, bridge);
+            let label = inputs.label(label);
+            let state = self.number(&state);
+            if seen.insert((label, state)) {
                 found.push((label, state, start));
             }
         }
         found
     }
 
-    /// What both machines have of the inputs that a step read, and the inputs that are terms over it.
-    fn label(&self, read: &[(Location, Value)], values: Values, inputs: &mut Inputs, bridge: &Bridge) -> Label {
-        let label = self.label_of_inputs(read, inputs, bridge);
-        if values.is_empty() {
-            return label;
-        }
-        let mut all: Vec<(u32, u32)> = label.to_vec();
-        // What cannot be evaluated is a value that no abstract step reads.
-        all.extend(
-            values
-                .into_iter()
-                .map(|(input, value)| inputs.number(input, Vec::new(), value.unwrap_or_else(Value::string))),
-        );
-        all.sort_unstable();
-        all.into()
-    }
-
-    /// The same with the inputs that the state determines.
-    fn label_with(
+    /// What both machines have of the inputs that a step read, the inputs that are terms over it, and those that the state determines.
+    fn label(
         &self,
         read: &[(Location, Value)],
         values: Values,
         given: &[(u32, u32)],
         inputs: &mut Inputs,
         bridge: &Bridge,
-    ) -> Label {
-        let label = self.label(read, values, inputs, bridge);
-        if given.is_empty() {
-            return label;
-        }
-        let mut all: Vec<(u32, u32)> = label.iter().chain(given).copied().collect();
-        all.sort_unstable();
-        all.into()
+    ) -> LabelId {
+        let mut entries = self.entries(read, inputs, bridge);
+        // What cannot be evaluated is a value that no abstract step reads.
+        let computed = values.into_iter().map(|(input, value)| (input, value.unwrap_or_else(Value::string)));
+        entries.extend(computed.map(|(input, value)| inputs.number(input, Vec::new(), value)));
+        entries.extend(given);
+        inputs.label(entries)
     }
 
-    fn label_of_inputs(&self, read: &[(Location, Value)], inputs: &mut Inputs, bridge: &Bridge) -> Label {
-        let mut label: Vec<(u32, u32)> = Vec::new();
+    fn entries(&self, read: &[(Location, Value)], inputs: &mut Inputs, bridge: &Bridge) -> Vec<(u32, u32)> {
+        let mut entries = Vec::new();
         for (location, value) in read {
             let Some(named) = self.shared.get(&location.function) else { continue };
             let arguments: Option<Vec<Value>> = location.arguments.iter().map(|value| bridge.over(value)).collect();
             // What has no name in the joint model is a value that the other machine never has.
             let Some((arguments, value)) = arguments.zip(bridge.over(value)) else { continue };
-            label.extend(named.iter().map(|input| inputs.number(*input, arguments.clone(), value.clone())));
+            entries.extend(named.iter().map(|input| inputs.number(*input, arguments.clone(), value.clone())));
         }
-        label.sort_unstable();
-        label.into()
+        entries
     }
 
     /// The steps of a state, if they have been made.
@@ -332,7 +359,7 @@ impl Side {
             return Err(Stopped::Interrupted);
         }
         Ok(match &self.followed {
-            Some(followed) => Some(followed.moves(state)),
+            Some(followed) => followed.moves(state),
             None => self.moves[state as usize].clone(),
         })
     }
@@ -348,7 +375,11 @@ impl Side {
         if let Some(known) = self.known(state)? {
             return Ok(known);
         }
-        let moves = match self.unlabelled(state, given)? {
+        if self.followed.is_some() {
+            let goal = Goal::Open(self.opens.number(Followed::NOTHING));
+            return Ok(Rc::from([Move { label: inputs.label(Vec::new()), goal }]));
+        }
+        let moves = match self.unlabelled(state, given, inputs)? {
             Some(moves) => moves,
             None => self.labelled(state, given, inputs, bridge)?,
         };
@@ -360,7 +391,12 @@ impl Side {
     }
 
     /// The steps of a state, as a search makes them: remembered or compiled. None if somebody has to know more of a step than where it leads.
-    fn unlabelled(&mut self, state: StateId, given: &[(u32, u32)]) -> Result<Option<Vec<Move>>, Stopped> {
+    fn unlabelled(
+        &mut self,
+        state: StateId,
+        given: &[(u32, u32)],
+        inputs: &mut Inputs,
+    ) -> Result<Option<Vec<Move>>, Stopped> {
         let reads = !self.shared.is_empty() || self.computed.is_some() || !self.limited.is_empty();
         if reads || self.most < u64::MAX {
             return Ok(None);
@@ -374,15 +410,13 @@ impl Side {
         if expansion.faults != [0; 3] || expansion.unbounded > 0 {
             return Ok(None);
         }
-        let mut label = given.to_vec();
-        label.sort_unstable();
-        let label: Label = label.into();
+        let label = inputs.label(given.to_vec());
         let mut moves = Vec::new();
         let mut seen = FxHashSet::default();
         let stays = (expansion.stayed > 0).then_some(&*packed);
         for next in successors.chunks_exact(packed.len().max(1)).chain(stays) {
             if seen.insert(next) && self.is_assumed(next) {
-                moves.push(Move { label: Rc::clone(&label), goal: Goal::State(self.number(next.into())) });
+                moves.push(Move { label, goal: Goal::State(self.number(next)) });
             }
         }
         Ok(Some(moves))
@@ -412,24 +446,24 @@ impl Side {
         let mut seen = FxHashSet::default();
         for (Path { inputs: read, outcome, .. }, values) in paths {
             self.look_at(Some(state), &read);
-            let label = self.label_with(&read, values, given, inputs, bridge);
+            let label = self.label(&read, values, given, inputs, bridge);
             let goal = match outcome {
                 Outcome::Next(next) => {
                     if !self.is_assumed(&next) {
                         continue;
                     }
-                    Goal::State(self.number(next))
+                    Goal::State(self.number(&next))
                 }
                 Outcome::Fault(fault) if matches!(fault.kind, FaultKind::Interrupted(_)) => {
                     return Err(Stopped::Interrupted);
                 }
                 Outcome::Fault(fault) if self.is_end(&fault) => continue,
-                Outcome::Fault(fault) => Goal::Fault(fault.show(&self.program).to_string()),
-                Outcome::Unbounded(unbounded) => Goal::Open(unbounded),
+                Outcome::Fault(fault) => Goal::Fault(self.faults.number(fault.show(&self.program).to_string())),
+                Outcome::Unbounded(unbounded) => Goal::Open(self.opens.number(unbounded)),
                 Outcome::Excluded => continue,
             };
             let made = Move { label, goal };
-            if seen.insert(made.clone()) {
+            if seen.insert(made) {
                 moves.push(made);
             }
         }
@@ -443,29 +477,29 @@ impl Side {
 
     /// The number of a function with arguments.
     pub fn place(&mut self, function: FunctionId, arguments: Vec<Value>) -> Place {
-        self.columns.place(function, arguments)
+        self.looked.place(function, arguments)
     }
 
     /// The number of what a function is in a state.
     #[inline]
     pub fn value_at(&mut self, state: StateId, place: Place) -> ValueId {
-        match self.columns.get(place, state) {
+        match self.looked.get(place, state) {
             Some(known) => known,
             None => self.look(state, place),
         }
     }
 
     fn look(&mut self, state: StateId, place: Place) -> ValueId {
-        let Side { explorer, readers, states, columns, program, .. } = self;
-        let (function, arguments) = columns.told(place);
-        let value = explorer.evaluate_with(&readers[function], arguments, &states[state as usize]);
+        let Side { explorer, readers, states, looked, program, .. } = self;
+        let (function, arguments) = looked.told(place);
+        let value = explorer.evaluate_with(&readers[function], arguments, states.get(state));
         let value = value.map_err(|fault| fault.show(program).to_string());
-        columns.note(place, state, states.len(), value)
+        looked.note(place, state, states.len(), value)
     }
 
     /// What a number stands for: a value, or why there is none.
     pub fn value(&self, number: ValueId) -> &Result<Value, String> {
-        self.columns.value(number)
+        self.looked.value(number)
     }
 
     /// The value of a term of this machine in a state.
@@ -473,7 +507,7 @@ impl Side {
     /// # Errors
     /// What evaluation meets.
     pub fn evaluate(&mut self, formula: &Expression, state: StateId) -> Result<Value, Fault> {
-        self.explorer.evaluate(formula, &self.states[state as usize])
+        self.explorer.evaluate(formula, self.states.get(state))
     }
 
     /// The steps of a state, if it was looked at.
@@ -483,7 +517,7 @@ impl Side {
 
     /// The locations of a function that have a value in a state, in canonical order.
     pub fn located(&mut self, state: StateId, function: FunctionId) -> Vec<(Vec<Value>, Value)> {
-        let values = self.explorer.values(&self.states[state as usize]);
+        let values = self.explorer.values(self.states.get(state));
         let of = values.into_iter().filter(|(location, _)| location.function == function);
         of.map(|(location, value)| (location.arguments, value)).collect()
     }
@@ -505,15 +539,15 @@ impl Side {
         let mut paths = Paths { computed, bridge, most, values: Values::new(), found: Vec::new() };
         let _ = self.explorer.paths_read(&packed, &mut paths);
         let paths = paths.found;
-        let wanted_label: Vec<(u32, u32)> =
-            wanted.label.iter().filter(|entry| !given.contains(entry)).copied().collect();
         let (path, _) = paths.into_iter().find(|(path, values)| {
             let leads = match (&path.outcome, &wanted.goal) {
-                (Outcome::Next(next), Goal::State(to)) => **next == *self.states[*to as usize],
-                (Outcome::Fault(fault), Goal::Fault(text)) => fault.show(&self.program).to_string() == *text,
+                (Outcome::Next(next), Goal::State(to)) => **next == *self.states.get(*to),
+                (Outcome::Fault(fault), Goal::Fault(number)) => {
+                    fault.show(&self.program).to_string() == *self.fault(*number)
+                }
                 _ => false,
             };
-            leads && *self.label(&path.inputs, values.clone(), inputs, bridge) == wanted_label[..]
+            leads && self.label(&path.inputs, values.clone(), given, inputs, bridge) == wanted.label
         })?;
         let Side { explorer, computed, .. } = self;
         let mut read = |step: &mut Reading<'_>| match computed {

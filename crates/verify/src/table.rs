@@ -5,6 +5,8 @@
 //! grows by half, so states and table together take at most 22 bytes for a state of one word. Only the order of arrival
 //! is visible, never the order of hashes.
 
+use explore::hash;
+
 /// States in a chunk.
 const CHUNK: usize = 1 << 14;
 /// How many lookups are in progress at a time, so that their memory is fetched in parallel.
@@ -13,18 +15,6 @@ const AHEAD: usize = 16;
 const FULL: (usize, usize) = (7, 8);
 /// Marks an occupied slot that contains a state itself.
 const OCCUPIED: u64 = 1 << 63;
-
-/// The hash of a state.
-#[inline]
-pub fn hash(state: &[u64]) -> u64 {
-    let mut hash = 0x9e37_79b9_7f4a_7c15u64;
-    for word in state {
-        hash = (hash ^ word).wrapping_mul(0xff51_afd7_ed55_8ccd);
-        hash ^= hash >> 32;
-    }
-    hash = hash.wrapping_mul(0xc4ce_b9fe_1a85_ec53);
-    hash ^ hash >> 29
-}
 
 /// A set of states in the order of arrival.
 #[derive(Debug)]

@@ -6,7 +6,7 @@ use program::FunctionId;
 use syntax::Span;
 
 /// What kind of alternatives cannot be gone through.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum UnboundedKind {
     /// The values of an input.
     Input(FunctionId),
@@ -19,7 +19,7 @@ pub enum UnboundedKind {
 }
 
 /// Alternatives without end.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Unbounded {
     /// Of what kind.
     pub kind: UnboundedKind,

@@ -50,6 +50,18 @@ pub fn apply(overwrites: &[Overwrite], words: &mut [u64]) {
     }
 }
 
+/// The hash of a state.
+#[inline]
+pub fn hash(state: &[u64]) -> u64 {
+    let mut hash = 0x9e37_79b9_7f4a_7c15u64;
+    for word in state {
+        hash = (hash ^ word).wrapping_mul(0xff51_afd7_ed55_8ccd);
+        hash ^= hash >> 32;
+    }
+    hash = hash.wrapping_mul(0xc4ce_b9fe_1a85_ec53);
+    hash ^ hash >> 29
+}
+
 /// A field of the words.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Field {

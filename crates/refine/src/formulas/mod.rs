@@ -115,7 +115,7 @@ fn starts(coupling: &Coupling, options: &Options) -> Result<([Vec<Told>; 2], Vec
     let mut open: Vec<NodeId> = vec![product.root];
     while let Some(node) = open.pop() {
         match &product.nodes[node as usize] {
-            Node::Deeds(deeds) => open.extend(deeds.iter().rev().map(|(_, node)| *node)),
+            Node::Begins(all) | Node::Steps(_, all) | Node::Inputs(all) => open.extend(all.iter().rev()),
             Node::Choice(ways) => open.extend(ways),
             Node::Answers(end) => {
                 let of = |pair: u32| numbers[ABSTRACT][&product.pairs[pair as usize].0];

@@ -30,16 +30,13 @@ pub(crate) enum Unmade {
 pub(super) struct Followed(FxHashMap<StateId, Vec<(Move, Told)>>);
 
 impl Followed {
-    /// The steps of a state.
-    pub fn moves(&self, state: StateId) -> Rc<[Move]> {
-        match self.0.get(&state) {
-            Some(made) => made.iter().map(|(made, _)| made.clone()).collect(),
-            None => {
-                let span = Span { file: FileId(0), start: 0, end: 0 };
-                let goal = Goal::Open(Unbounded { kind: UnboundedKind::Limit, span });
-                Rc::from([Move { label: Rc::from([]), goal }])
-            }
-        }
+    /// Of a run that goes no further: what stands for all that is not looked at.
+    pub const NOTHING: Unbounded =
+        Unbounded { kind: UnboundedKind::Limit, span: Span { file: FileId(0), start: 0, end: 0 } };
+
+    /// The steps of a state, if the run goes on there.
+    pub fn moves(&self, state: StateId) -> Option<Rc<[Move]>> {
+        self.0.get(&state).map(|made| made.iter().map(|(made, _)| *made).collect())
     }
 
     /// All there is to say of a step.
@@ -100,10 +97,10 @@ impl Side {
         for (path, values) in paths {
             let goal = match (&path.outcome, wanted) {
                 (Outcome::Next(next), Some(wanted)) if self.is_assumed(next) && self.has(next, wanted) => {
-                    Goal::State(self.number(next.clone()))
+                    Goal::State(self.number(next))
                 }
                 (Outcome::Fault(fault), None) if fault.kind.is_of_the_model() && !self.is_end(fault) => {
-                    Goal::Fault(fault.show(&self.program).to_string())
+                    Goal::Fault(self.faults.number(fault.show(&self.program).to_string()))
                 }
                 (Outcome::Unbounded(unbounded), _) => {
                     why = Unmade::Unbounded(*unbounded);
@@ -111,7 +108,7 @@ impl Side {
                 }
                 _ => continue,
             };
-            let label = self.label_with(&path.inputs, values, given, inputs, bridge);
+            let label = self.label(&path.inputs, values, given, inputs, bridge);
             let Side { explorer, computed, .. } = self;
             let mut read = |step: &mut Reading<'_>| match computed {
                 Some(computed) => computed.values(step, bridge).map(|_| ()),

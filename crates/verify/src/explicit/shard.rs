@@ -6,7 +6,7 @@
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-use explore::{Expansion, Explorer, Orbits, Truth, Unbounded, Widening};
+use explore::{Expansion, Explorer, Orbits, Truth, Unbounded, Widening, hash};
 use syntax::Span;
 
 use crate::checkpoint::journal::Journal;
@@ -16,7 +16,6 @@ use crate::explicit::tally::Tally;
 use crate::partial_order::Reduction;
 use crate::plan::Plan;
 use crate::storage::Store;
-use crate::table::hash;
 use crate::target::{Found, Target};
 
 /// How many states a worker expands before successors are exchanged.

@@ -11,7 +11,6 @@
 
 mod apart;
 mod close;
-mod numbered;
 pub(crate) mod outcome;
 mod scheduler;
 mod states;

@@ -9,7 +9,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
-use explore::{Explorer, Interner, Outcome, Path, Settings, Trouble, Truth, Widening};
+use explore::{Explorer, Interner, Numbered, Outcome, Path, Settings, Trouble, Truth, Widening};
 use hashbrown::HashSet;
 use machine::{Cause, Location, Value};
 use program::{FunctionId, Program};
@@ -19,7 +19,6 @@ use syntax::Span;
 use crate::explicit::edges::Besides;
 use crate::graph::{Builder, Graph, Label, StateId};
 use crate::progress::{Progress, Stop};
-use crate::runs::numbered::Numbered;
 use crate::walk::Walk;
 
 /// What the graph is built from.
@@ -208,7 +207,7 @@ impl<'s> Exploration<'s> {
         drop(walker);
         exploration.stop = stop;
         exploration.initial = graph.initial;
-        exploration.states.all = graph.states;
+        exploration.states = Numbered::listed(exploration.explorer.words(), graph.states);
         let mut start = 0;
         for (state, (end, besides)) in graph.ends.iter().zip(&graph.besides).enumerate() {
             let own = &graph.targets[start..*end];

@@ -42,7 +42,7 @@ fn told(explored: &Exploration<'_>) -> (Vec<u64>, usize, Vec<Option<Vec<Row>>>) 
     let of = |(start, (end, cut)): (usize, (&usize, &bool))| (!cut).then(|| explored.rows[start..*end].to_vec());
     let mut rows: Vec<_> = starts.zip(explored.ends.iter().zip(&explored.cut)).map(of).collect();
     rows.resize(explored.states.len(), None);
-    (explored.states.all.clone(), explored.initial, rows)
+    (explored.states.words().to_vec(), explored.initial, rows)
 }
 
 /// Holds the graph that a search has walked, alone and by several workers, to the one that is explored for itself; gives how

@@ -4,26 +4,42 @@
 
 use hashbrown::HashTable;
 
-use crate::table::hash;
+use super::words::hash;
 
 /// See the module.
 #[derive(Debug)]
 pub struct Numbered {
     words: usize,
+    count: usize,
     /// The states, one after the other.
-    pub(super) all: Vec<u64>,
+    all: Vec<u64>,
     numbers: HashTable<u32>,
 }
 
 impl Numbered {
-    /// No states yet.
+    /// No states yet; each has so many words.
     pub fn new(words: usize) -> Numbered {
-        Numbered { words, all: Vec::new(), numbers: HashTable::new() }
+        Numbered { words, count: 0, all: Vec::new(), numbers: HashTable::new() }
+    }
+
+    /// States that stand one after the other already, of which nobody will ask for a number.
+    pub fn listed(words: usize, all: Vec<u64>) -> Numbered {
+        Numbered { words, count: all.len() / words, all, numbers: HashTable::new() }
     }
 
     /// How many there are.
     pub fn len(&self) -> usize {
-        self.all.len() / self.words
+        self.count
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.count == 0
+    }
+
+    /// The states, one after the other.
+    pub fn words(&self) -> &[u64] {
+        &self.all
     }
 
     /// The state with a number.
@@ -40,12 +56,21 @@ impl Numbered {
 
     /// Gives a state a number that has none.
     pub fn push(&mut self, state: &[u64]) -> u32 {
-        let number = self.len() as u32;
+        let number = self.count as u32;
+        self.count += 1;
         self.all.extend_from_slice(state);
-        let Numbered { words, all, numbers } = self;
+        let Numbered { words, all, numbers, .. } = self;
         let of = |number: &u32| hash(&all[*number as usize * *words..][..*words]);
         numbers.insert_unique(hash(state), number, of);
         number
+    }
+
+    /// The number of a state, and whether it is new.
+    pub fn number(&mut self, state: &[u64]) -> (u32, bool) {
+        match self.find(state) {
+            Some(known) => (known, false),
+            None => (self.push(state), true),
+        }
     }
 
     /// How many bytes they take.
