@@ -7,7 +7,7 @@ use std::collections::{BTreeMap, VecDeque};
 
 use explore::Told;
 use machine::{Location, Show, Value};
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::behind::Broken;
 use crate::coupling::is_fair;
@@ -162,8 +162,8 @@ impl Telling<'_, '_> {
     fn begin(&mut self, side: usize, state: StateId, start: explore::Start) {
         let of = &mut self.product.sides[side];
         let packed = of.packed(state);
-        self.runs[side].start = of.explorer.told_of_start(start);
-        self.runs[side].values = of.explorer.values(&packed);
+        self.runs[side].start = of.stepper.explorer.told_of_start(start);
+        self.runs[side].values = of.stepper.explorer.values(&packed);
     }
 
     fn step(&mut self, side: usize, from: StateId, made: &Move) {
@@ -359,26 +359,31 @@ pub(crate) fn used(product: &Product<'_>, solution: &Solution) -> BTreeMap<(u32,
     let alive = |_: &Answers, pair: PairId, _: u32| solution.lost[pair as usize].is_none();
     let mut used = BTreeMap::new();
     let mut seen = vec![false; product.pairs.len()];
-    let mut queue = VecDeque::from([product.root]);
-    let mut met = vec![false; product.nodes.len()];
-    while let Some(node) = queue.pop_front() {
-        if std::mem::replace(&mut met[node as usize], true) {
-            continue;
-        }
-        match &product.nodes[node as usize] {
-            Node::Begins(all) | Node::Steps(_, all) | Node::Inputs(all) => queue.extend(all),
-            Node::Choice(ways) => queue.extend(ways.iter().find(|node| solution.wins(product, **node, &alive))),
-            Node::Answers(end) => {
-                let fit = end.answers.iter().filter(|(pair, m)| alive(end, *pair, *m));
-                let Some((pair, m)) = fit.min_by_key(|(_, m)| (*m == 0, *m)) else { continue };
-                if end.n > 0 {
-                    *used.entry((*m, end.n)).or_default() += 1;
-                }
-                if !std::mem::replace(&mut seen[*pair as usize], true) {
-                    queue.extend(product.trees[*pair as usize]);
-                }
+    let mut trees = VecDeque::from([product.root]);
+    // Trees share the nodes in which diagrams end alike; each tree counts its own.
+    let (mut open, mut met) = (Vec::new(), FxHashSet::default());
+    while let Some(tree) = trees.pop_front() {
+        met.clear();
+        open.push(tree);
+        while let Some(node) = open.pop() {
+            if !met.insert(node) {
+                continue;
             }
-            Node::Fault | Node::Open(_) => {}
+            match &product.nodes[node as usize] {
+                Node::Begins(all) | Node::Steps(_, all) | Node::Inputs(all) => open.extend(all.iter().rev()),
+                Node::Choice(ways) => open.extend(ways.iter().find(|node| solution.wins(product, **node, &alive))),
+                Node::Answers(end) => {
+                    let fit = end.answers.iter().filter(|(pair, m)| alive(end, *pair, *m));
+                    let Some((pair, m)) = fit.min_by_key(|(_, m)| (*m == 0, *m)) else { continue };
+                    if end.n > 0 {
+                        *used.entry((*m, end.n)).or_default() += 1;
+                    }
+                    if !std::mem::replace(&mut seen[*pair as usize], true) {
+                        trees.extend(product.trees[*pair as usize]);
+                    }
+                }
+                Node::Fault | Node::Open(_) => {}
+            }
         }
     }
     used

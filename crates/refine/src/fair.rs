@@ -20,7 +20,7 @@ pub(crate) fn has_fair_run(product: &Product<'_>) -> bool {
     let conditions = 0..product.fair();
     let mut edges = Vec::new();
     for from in 0..side.count() as StateId {
-        for made in side.made(from).into_iter().flatten() {
+        for made in side.made(from).iter().flat_map(|made| made.iter()) {
             if let Goal::State(to) = made.goal {
                 let meets = conditions.clone().map(|fair| product.meets_in(made, fair)).collect();
                 edges.push(Edge { from, to, meets });

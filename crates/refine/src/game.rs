@@ -66,7 +66,7 @@ pub(crate) struct Solution {
 impl Solution {
     /// Whether a node is won, given which pairs are: after so many abstract steps.
     pub fn wins(&self, product: &Product<'_>, node: NodeId, alive: Alive<'_>) -> bool {
-        wins(product, node, &self.rules, alive, &mut Known::default())
+        wins(product, node, &self.rules, alive)
     }
 
     /// Whether the abstract machine waits from one pair to another while a condition of fairness is not met and comes no nearer.
@@ -97,62 +97,105 @@ impl Solution {
 /// Whether a pair counts as won, at the end of a diagram with so many abstract steps.
 pub(crate) type Alive<'a> = &'a dyn Fn(&Answers, PairId, u32) -> bool;
 
-/// What nodes of long diagrams came to: several ways may lead to one.
+/// What nodes within a tree came to: several ways may lead to one.
 type Known = FxHashMap<NodeId, bool>;
 
-fn wins(product: &Product<'_>, node: NodeId, rules: &Rules, alive: Alive<'_>, known: &mut Known) -> bool {
+/// Whether a tree is won.
+fn wins(product: &Product<'_>, tree: NodeId, rules: &Rules, alive: Alive<'_>) -> bool {
+    let mut known = Known::default();
+    let mut within = |node: NodeId| match &product.nodes[node as usize] {
+        Node::Answers(end) => is_answered(end, rules, alive),
+        _ => wins_within(product, node, rules, alive, &mut known),
+    };
+    match &product.nodes[tree as usize] {
+        Node::Begins(all) | Node::Steps(_, all) | Node::Inputs(all) => all.iter().all(|node| within(*node)),
+        _ => within(tree),
+    }
+}
+
+fn is_answered(end: &Answers, rules: &Rules, alive: Alive<'_>) -> bool {
+    let answered = |(pair, m): &(PairId, u32)| rules.allow(end, *m) && alive(end, *pair, *m);
+    end.answers.iter().any(answered) || (rules.hopeful && end.unclear.is_some())
+}
+
+fn wins_within(product: &Product<'_>, node: NodeId, rules: &Rules, alive: Alive<'_>, known: &mut Known) -> bool {
     if let Some(known) = known.get(&node) {
         return *known;
     }
     let won = match &product.nodes[node as usize] {
         Node::Begins(all) | Node::Steps(_, all) | Node::Inputs(all) => {
-            all.iter().all(|node| wins(product, *node, rules, alive, known))
+            all.iter().all(|node| wins_within(product, *node, rules, alive, known))
         }
-        Node::Choice(ways) => ways.iter().any(|node| wins(product, *node, rules, alive, known)),
-        Node::Answers(end) => {
-            let answered = |(pair, m): &(PairId, u32)| rules.allow(end, *m) && alive(end, *pair, *m);
-            end.answers.iter().any(answered) || (rules.hopeful && end.unclear.is_some())
-        }
-        Node::Fault => false,
-        Node::Open(_) => rules.hopeful,
+        Node::Choice(ways) => ways.iter().any(|node| wins_within(product, *node, rules, alive, known)),
+        Node::Answers(end) => return is_answered(end, rules, alive),
+        Node::Fault => return false,
+        Node::Open(_) => return rules.hopeful,
     };
-    if !product.nodes[node as usize].behind().is_empty() {
-        known.insert(node, won);
-    }
+    known.insert(node, won);
     won
 }
 
-/// Calls `visit` with each pair that a node ends in.
-fn each_answer(product: &Product<'_>, node: NodeId, visit: &mut dyn FnMut(PairId, u32)) {
-    let mut open = vec![node];
-    let mut seen = FxHashSet::default();
-    while let Some(node) = open.pop() {
-        if !seen.insert(node) {
-            continue;
+/// By pair, the pairs whose trees end in it.
+#[derive(Debug)]
+pub(crate) struct Parents {
+    /// Where those of each pair begin, and where the last ones end.
+    begins: Vec<u32>,
+    all: Vec<PairId>,
+    /// Some answer has no abstract step.
+    waits: bool,
+}
+
+impl Parents {
+    /// Those of all pairs.
+    pub fn of(product: &Product<'_>) -> Parents {
+        let mut begins = vec![0; product.pairs.len() + 1];
+        let (mut links, mut waits) = (Vec::new(), false);
+        let mut own = Vec::new();
+        let mut open: Vec<NodeId> = Vec::new();
+        let mut seen = FxHashSet::default();
+        for (pair, tree) in (0..).zip(&product.trees) {
+            own.clear();
+            seen.clear();
+            open.extend(tree);
+            while let Some(node) = open.pop() {
+                match &product.nodes[node as usize] {
+                    Node::Answers(end) => {
+                        waits |= end.answers.iter().any(|(_, m)| *m == 0);
+                        own.extend(end.answers.iter().map(|(answer, _)| *answer));
+                    }
+                    node => open.extend(node.behind().iter().filter(|node| {
+                        matches!(product.nodes[**node as usize], Node::Answers(_)) || seen.insert(**node)
+                    })),
+                }
+            }
+            own.sort_unstable();
+            own.dedup();
+            links.extend(own.iter().map(|answer| (*answer, pair)));
         }
-        let node = &product.nodes[node as usize];
-        open.extend(node.behind());
-        if let Node::Answers(end) = node {
-            end.answers.iter().for_each(|(pair, m)| visit(*pair, *m));
+        for (answer, _) in &links {
+            begins[*answer as usize + 1] += 1;
         }
+        for pair in 1..begins.len() {
+            begins[pair] += begins[pair - 1];
+        }
+        let mut all = vec![0; links.len()];
+        let mut next = begins.clone();
+        for (answer, pair) in links {
+            let place = &mut next[answer as usize];
+            all[*place as usize] = pair;
+            *place += 1;
+        }
+        Parents { begins, all, waits }
+    }
+
+    fn get(&self, pair: PairId) -> &[PairId] {
+        &self.all[self.begins[pair as usize] as usize..self.begins[pair as usize + 1] as usize]
     }
 }
 
 /// Decides all pairs.
-pub(crate) fn solve(product: &Product<'_>, rules: Rules) -> Solution {
+pub(crate) fn solve(product: &Product<'_>, parents: &Parents, rules: Rules) -> Solution {
     let count = product.pairs.len();
-    let mut parents: Vec<Vec<PairId>> = vec![Vec::new(); count];
-    let mut ever_waits = false;
-    for (pair, tree) in (0..).zip(&product.trees) {
-        let Some(tree) = tree else { continue };
-        each_answer(product, *tree, &mut |answer, m| {
-            ever_waits |= m == 0;
-            let of = &mut parents[answer as usize];
-            if of.last() != Some(&pair) {
-                of.push(pair);
-            }
-        });
-    }
     let mut lost: Vec<Option<Lost>> = vec![None; count];
     let mut turns = vec![vec![0; count]; if rules.fair { product.fair() } else { 0 }];
     let mut rank = 0;
@@ -165,23 +208,21 @@ pub(crate) fn solve(product: &Product<'_>, rules: Rules) -> Solution {
                 continue;
             }
             let won = match product.trees[pair as usize] {
-                Some(tree) => {
-                    wins(product, tree, &rules, &|_, pair, _| lost[pair as usize].is_none(), &mut Known::default())
-                }
+                Some(tree) => wins(product, tree, &rules, &|_, pair, _| lost[pair as usize].is_none()),
                 None => rules.hopeful,
             };
             if !won {
                 rank += 1;
                 lost[pair as usize] = Some(Lost { rank, waits: false });
-                for parent in &parents[pair as usize] {
+                for parent in parents.get(pair) {
                     if !std::mem::replace(&mut queued[*parent as usize], true) {
                         queue.push_back(*parent);
                     }
                 }
             }
         }
-        let waiting = match ever_waits && !rules.waiting {
-            true => Waiting::new(product, &rules, &lost, &parents).pairs(&mut turns),
+        let waiting = match parents.waits && !rules.waiting {
+            true => Waiting::new(product, &rules, &lost, parents).pairs(&mut turns),
             false => Vec::new(),
         };
         if waiting.is_empty() {
@@ -190,14 +231,14 @@ pub(crate) fn solve(product: &Product<'_>, rules: Rules) -> Solution {
         rank += 1;
         for pair in waiting {
             lost[pair as usize] = Some(Lost { rank, waits: true });
-            for parent in &parents[pair as usize] {
+            for parent in parents.get(pair) {
                 if !std::mem::replace(&mut queued[*parent as usize], true) {
                     queue.push_back(*parent);
                 }
             }
         }
     }
-    let won = wins(product, product.root, &rules, &|_, pair, _| lost[pair as usize].is_none(), &mut Known::default());
+    let won = wins(product, product.root, &rules, &|_, pair, _| lost[pair as usize].is_none());
     Solution { lost, turns, won, rules }
 }
 
@@ -206,7 +247,7 @@ struct Waiting<'w, 'c> {
     product: &'w Product<'c>,
     rules: &'w Rules,
     lost: &'w [Option<Lost>],
-    parents: &'w [Vec<PairId>],
+    parents: &'w Parents,
     /// By pair: the next abstract step comes, or some condition of fairness is no longer met.
     moves: Vec<bool>,
 }
@@ -216,7 +257,7 @@ impl<'w, 'c> Waiting<'w, 'c> {
         product: &'w Product<'c>,
         rules: &'w Rules,
         lost: &'w [Option<Lost>],
-        parents: &'w [Vec<PairId>],
+        parents: &'w Parents,
     ) -> Waiting<'w, 'c> {
         Waiting { product, rules, lost, parents, moves: vec![false; product.pairs.len()] }
     }
@@ -231,7 +272,7 @@ impl<'w, 'c> Waiting<'w, 'c> {
             for (fair, turns) in turns.iter_mut().enumerate() {
                 let kept = self.unfair(fair, turns);
                 kept.iter().for_each(|pair| self.moves[*pair as usize] = true);
-                grown.extend(kept.iter().flat_map(|pair| &self.parents[*pair as usize]));
+                grown.extend(kept.iter().flat_map(|pair| self.parents.get(*pair)));
             }
             if grown.is_empty() {
                 return self.all_open();
@@ -256,7 +297,7 @@ impl<'w, 'c> Waiting<'w, 'c> {
             0 => self.moves[pair as usize] || good(end, pair),
             _ => self.lost[pair as usize].is_none(),
         };
-        wins(self.product, tree, self.rules, &alive, &mut Known::default())
+        wins(self.product, tree, self.rules, &alive)
     }
 
     /// Finds more pairs that lead to such from which it moves: the least fixpoint, begun at these pairs.
@@ -267,7 +308,7 @@ impl<'w, 'c> Waiting<'w, 'c> {
                 continue;
             }
             self.moves[pair as usize] = true;
-            queue.extend(self.parents[pair as usize].iter().filter(|parent| self.is_open(**parent)));
+            queue.extend(self.parents.get(pair).iter().filter(|parent| self.is_open(**parent)));
         }
     }
 
@@ -290,7 +331,7 @@ impl<'w, 'c> Waiting<'w, 'c> {
             kept[pair as usize] = false;
             turn += 1;
             turns[pair as usize] = turn;
-            queue.extend(self.parents[pair as usize].iter().filter(|parent| kept[**parent as usize]));
+            queue.extend(self.parents.get(pair).iter().filter(|parent| kept[**parent as usize]));
         }
         candidates.into_iter().filter(|pair| kept[*pair as usize]).collect()
     }

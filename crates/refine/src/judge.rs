@@ -43,15 +43,15 @@ pub(crate) struct Judge<'c> {
     pub distinguishes: bool,
 }
 
-struct Both<'s> {
+struct Both<'s, 'c> {
     joint: &'s Joint,
-    sides: &'s mut [Side; 2],
+    sides: &'s mut [Side<'c>; 2],
     states: [StateId; 2],
     reads: Vec<Read>,
     looks: Vec<Look>,
 }
 
-impl Environment for Both<'_> {
+impl Environment for Both<'_, '_> {
     fn monitored(&mut self, _: &Program, location: LocationRef<'_>, _: DomainId) -> Result<Value, String> {
         let Some((side, function)) = self.joint.of.get(&location.function).copied() else {
             return Err("a function of neither machine".to_string());
@@ -102,7 +102,7 @@ impl<'c> Judge<'c> {
     }
 
     /// Whether two states correspond.
-    pub fn coupled(&mut self, sides: &mut [Side; 2], states: [StateId; 2]) -> bool {
+    pub fn coupled(&mut self, sides: &mut [Side<'_>; 2], states: [StateId; 2]) -> bool {
         let count = self.parts.len();
         let holds = (0..count).all(|index| {
             let index = (self.failed + index) % count;
@@ -117,7 +117,7 @@ impl<'c> Judge<'c> {
     }
 
     /// The conjuncts of the relation that do not hold of two states.
-    pub fn failing(&mut self, sides: &mut [Side; 2], states: [StateId; 2]) -> Vec<usize> {
+    pub fn failing(&mut self, sides: &mut [Side<'_>; 2], states: [StateId; 2]) -> Vec<usize> {
         let failing: Vec<usize> = (0..self.parts.len()).filter(|index| !self.holds(sides, *index, states)).collect();
         let mut of: Vec<usize> = failing.iter().map(|index| self.parts[*index].of()).collect();
         of.dedup();
@@ -125,7 +125,7 @@ impl<'c> Judge<'c> {
     }
 
     /// Whether a part of the relation holds.
-    fn holds(&mut self, sides: &mut [Side; 2], index: usize, states: [StateId; 2]) -> bool {
+    fn holds(&mut self, sides: &mut [Side<'_>; 2], index: usize, states: [StateId; 2]) -> bool {
         let Judge { coupling, parts, numbers, .. } = self;
         let part = match &mut parts[index] {
             Part::Same(same) => {
@@ -149,7 +149,7 @@ impl<'c> Judge<'c> {
     /// The value of a term over two states, and what it read.
     pub fn evaluate(
         &mut self,
-        sides: &mut [Side; 2],
+        sides: &mut [Side<'_>; 2],
         formula: &Expression,
         states: [StateId; 2],
     ) -> (Result<Value, String>, Vec<Read>) {
@@ -159,7 +159,7 @@ impl<'c> Judge<'c> {
     /// The same of a part of a term, in a frame of so many slots, some of which have values.
     pub fn evaluate_with(
         &mut self,
-        sides: &mut [Side; 2],
+        sides: &mut [Side<'_>; 2],
         (term, frame): (TermId, u32),
         bound: &[Bound],
         states: [StateId; 2],
@@ -170,7 +170,7 @@ impl<'c> Judge<'c> {
 
     fn looked(
         &mut self,
-        sides: &mut [Side; 2],
+        sides: &mut [Side<'_>; 2],
         (term, frame): (TermId, u32),
         bound: &[Bound],
         states: [StateId; 2],
@@ -188,7 +188,7 @@ impl<'c> Judge<'c> {
     }
 
     /// The variant of two states, if there is one and it has a value there.
-    fn variant(&mut self, sides: &mut [Side; 2], states: [StateId; 2]) -> Option<i64> {
+    fn variant(&mut self, sides: &mut [Side<'_>; 2], states: [StateId; 2]) -> Option<i64> {
         let (_, formula) = self.coupling.variant.as_ref()?;
         match self.evaluate(sides, formula, states).0 {
             Ok(Value::Integer(number)) => Some(number),
@@ -198,7 +198,7 @@ impl<'c> Judge<'c> {
 
     /// Whether a diagram without an abstract step may lead from one pair of states to another: the variant, if the coupling has one,
     /// is not negative and decreases.
-    pub fn descends(&mut self, sides: &mut [Side; 2], from: [StateId; 2], to: [StateId; 2]) -> bool {
+    pub fn descends(&mut self, sides: &mut [Side<'_>; 2], from: [StateId; 2], to: [StateId; 2]) -> bool {
         if self.coupling.variant.is_none() {
             return true;
         }
@@ -207,12 +207,12 @@ impl<'c> Judge<'c> {
     }
 
     /// What the variant is before and after such a diagram.
-    pub fn descent(&mut self, sides: &mut [Side; 2], from: [StateId; 2], to: [StateId; 2]) -> [String; 2] {
+    pub fn descent(&mut self, sides: &mut [Side<'_>; 2], from: [StateId; 2], to: [StateId; 2]) -> [String; 2] {
         [from, to].map(|states| self.variant(sides, states).map_or("undef".to_string(), |number| number.to_string()))
     }
 
     /// Whether a segment ends in a concrete state.
-    pub fn ends(&mut self, sides: &mut [Side; 2], state: StateId) -> bool {
+    pub fn ends(&mut self, sides: &mut [Side<'_>; 2], state: StateId) -> bool {
         let Some(formula) = &self.coupling.segment else { return true };
         if let Some(known) = self.segment.truth(sides, [0, state]) {
             return known;
@@ -224,7 +224,7 @@ impl<'c> Judge<'c> {
     }
 
     /// Whether each concrete state is either the end of a segment or none: whether it is true or false there.
-    pub fn marks_clearly(&mut self, sides: &mut [Side; 2]) -> bool {
+    pub fn marks_clearly(&mut self, sides: &mut [Side<'_>; 2]) -> bool {
         let Some(formula) = &self.coupling.segment else { return true };
         (0..sides[CONCRETE].count() as StateId)
             .all(|state| matches!(self.evaluate(sides, formula, [0, state]).0, Ok(Value::Boolean(_))))
@@ -233,7 +233,7 @@ impl<'c> Judge<'c> {
     /// The values of a function that is to be the same, by arguments, as the joint model has them.
     pub fn values_of(
         &mut self,
-        sides: &mut [Side; 2],
+        sides: &mut [Side<'_>; 2],
         conjunct: usize,
         side: usize,
         state: StateId,

@@ -31,10 +31,17 @@ pub struct Options {
     pub max_pairs: u64,
     /// The most steps of both machines together; looked at between pairs.
     pub max_steps: u64,
+    /// How many threads make steps.
+    pub workers: usize,
+    /// So many pairs are looked at before others help. By default 512.
+    pub alone: usize,
 }
+
+/// LIMIT: fewer pairs are not worth making threads, and compiling in each.
+const ALONE: usize = 512;
 
 impl Default for Options {
     fn default() -> Options {
-        Options { extents: Default::default(), max_pairs: u64::MAX, max_steps: u64::MAX }
+        Options { extents: Default::default(), max_pairs: u64::MAX, max_steps: u64::MAX, workers: 1, alone: ALONE }
     }
 }

@@ -9,6 +9,7 @@ use program::{Builtin, Program, Property, PropertyKind, Quantifier, TemporalOper
 
 use crate::ABSTRACT;
 use crate::coupling::Coupling;
+use crate::game::Parents;
 use crate::product::Product;
 use crate::transfer::{Ends, Transfer};
 use crate::translate::Translation;
@@ -31,10 +32,10 @@ pub struct Preserved {
 }
 
 /// The properties of the abstract machine, by a game that is won.
-pub(crate) fn preserved(product: &mut Product<'_>) -> Vec<Preserved> {
+pub(crate) fn preserved(product: &mut Product<'_>, parents: &Parents) -> Vec<Preserved> {
     let coupling = product.judge.coupling;
     let is_asked = coupling.programs[ABSTRACT].properties.iter().any(is_said);
-    if is_asked { preserved_by(coupling, &Transfer::of(product)) } else { Vec::new() }
+    if is_asked { preserved_by(coupling, &Transfer::of(product, parents)) } else { Vec::new() }
 }
 
 fn is_said(property: &Property) -> bool {

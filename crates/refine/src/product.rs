@@ -115,7 +115,7 @@ pub(crate) struct AbstractRuns {
 
 /// See the module.
 pub(crate) struct Product<'c> {
-    pub sides: [Side; 2],
+    pub sides: [Side<'c>; 2],
     pub judge: Judge<'c>,
     pub inputs: Inputs,
     pub readings: Readings,
@@ -145,7 +145,7 @@ type Memo = FxHashMap<(StateId, ReadsId, u32), NodeId>;
 
 impl<'c> Product<'c> {
     /// The initial pairs.
-    pub fn new(mut sides: [Side; 2], judge: Judge<'c>) -> Product<'c> {
+    pub fn new(mut sides: [Side<'c>; 2], judge: Judge<'c>) -> Product<'c> {
         let mut inputs = Inputs::default();
         let bridges = &judge.coupling.joint.bridges;
         let initial = sides[ABSTRACT].initial(&mut inputs, &bridges[ABSTRACT]);
@@ -191,6 +191,7 @@ impl<'c> Product<'c> {
         if number == next {
             self.pairs.push(pair);
             self.trees.push(None);
+            self.sides[ABSTRACT].offer(pair.0);
         }
         number
     }

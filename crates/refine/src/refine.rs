@@ -4,24 +4,25 @@
 //! that needs nothing of what was not looked at is told. So it is where bounds leave out values of inputs. INVARIANT: *refines* is said
 //! only if every pair that the answers use was looked at; *does not refine* only if the concrete machine wins whatever was not looked at.
 
+use std::sync::Arc;
+
 use explore::{Unbounded, Widening};
 use machine::{Cause, Fault};
 use program::PropertyKind;
 
 use crate::behind::{self, is_unclear};
 use crate::bounded::of_proof;
-use crate::computed::Computed;
 use crate::coupling::{Coupling, start};
 use crate::evidence::{self, Ended};
 use crate::fair::has_fair_run;
-use crate::game::{Rules, solve};
+use crate::game::{Parents, Rules, Solution, solve};
 use crate::judge::Judge;
 use crate::limited::with_shared_inputs;
 use crate::options::Options;
 use crate::preserve::preserved;
 use crate::product::{Node, NodeId, Product, Unclear};
 use crate::report::{Assumed, From, Progress, Report, Vacuous, Verdict, Why};
-use crate::side::{Side, Stopped};
+use crate::side::{Ahead, Ending, Side, Stopped};
 use crate::{ABSTRACT, CONCRETE};
 
 /// LIMIT: so many pairs of states are compared to find out whether the relation says anything.
@@ -93,22 +94,17 @@ pub(crate) fn begun<'c>(
 ) -> Result<Result<Product<'c>, (usize, Widening)>, Trouble> {
     let mut sides = Vec::new();
     for side in [ABSTRACT, CONCRETE] {
-        let (program, readers) = (&coupling.programs[side], coupling.readers[side].clone());
-        let extent = &options.extents[side];
-        let computed = if side == CONCRETE { Computed::of(coupling, &extent.limits) } else { None };
-        let mut made = match Side::new(side, program, extent, &widenings[side], readers, computed) {
+        let mut made = match Side::new(coupling, side, &options.extents[side], &widenings[side]) {
             Ok(made) => made,
             Err(explore::Trouble::TooNarrow(widening)) => return Ok(Err((side, widening))),
             Err(explore::Trouble::Fault(fault)) => return Err(Trouble::Fault(side, fault)),
             Err(explore::Trouble::Unbounded(unbounded)) => return Err(Trouble::Unbounded(side, unbounded)),
             Err(explore::Trouble::Interrupted(cause)) => return Err(Trouble::Stopped(cause)),
         };
-        made.shared = coupling.shared[side].clone();
         made.most = options.max_steps;
-        made.ends_at_overflow = side == CONCRETE && coupling.overflow;
         sides.push(made);
     }
-    let Ok(sides) = <[Side; 2]>::try_from(sides) else { unreachable!("there are two sides") };
+    let Ok(sides) = <[Side<'c>; 2]>::try_from(sides) else { unreachable!("there are two sides") };
     let judge = Judge::new(coupling, &options.extents[CONCRETE].limits);
     Ok(Ok(Product::new(sides, judge)))
 }
@@ -123,55 +119,10 @@ fn attempt(
         Ok(product) => product,
         Err(narrow) => return Ok(Err(narrow)),
     };
-    let progress_of = |product: &Product<'_>, queue: usize| Progress {
-        pairs: product.pairs.len() as u64,
-        queue: queue as u64,
-        states: [ABSTRACT, CONCRETE].map(|side| product.sides[side].count() as u64),
-        steps: [ABSTRACT, CONCRETE].map(|side| product.sides[side].steps.0),
+    let Searched { mut whys, is_lost, next } = match search(&mut product, options, watch) {
+        Ok(searched) => searched,
+        Err(narrow) => return Ok(Err(narrow)),
     };
-    let mut whys = Whys::default();
-    let (mut next, mut look_again, mut is_lost) = (0, LOOK, false);
-    while next < product.pairs.len() {
-        if next >= look_again {
-            // What is lost whatever comes need not wait for the rest of the search, which may have no end.
-            is_lost = !solve(&product, Rules::of(&product, true)).won;
-            if is_lost {
-                break;
-            }
-            look_again = next * 2;
-        }
-        if next as u64 >= options.max_pairs {
-            whys.add(Why::Pairs(options.max_pairs));
-            break;
-        }
-        if product.sides.iter().map(|side| side.steps.0).sum::<u64>() >= options.max_steps {
-            whys.add(Why::Steps(options.max_steps));
-            break;
-        }
-        if next.is_multiple_of(64) && !watch(&progress_of(&product, product.pairs.len() - next)) {
-            whys.add(Why::Stopped(Cause::Asked));
-            break;
-        }
-        let asked = |side: usize| options.extents[side].interrupt.cause();
-        match asked(ABSTRACT).or(asked(CONCRETE)) {
-            Some(cause) => {
-                whys.add(Why::Stopped(cause));
-                break;
-            }
-            None => match product.explore(next as u32) {
-                Ok(()) => next += 1,
-                Err(Stopped::Narrow(side, widening)) => return Ok(Err((side, widening))),
-                Err(Stopped::Many) => {
-                    whys.add(Why::Steps(options.max_steps));
-                    break;
-                }
-                Err(Stopped::Interrupted) => {
-                    whys.add(Why::Stopped(asked(ABSTRACT).or(asked(CONCRETE)).unwrap_or(Cause::Asked)));
-                    break;
-                }
-            },
-        }
-    }
     let progress = progress_of(&product, product.pairs.len() - next);
     let mut broken = None;
     if whys.0.is_empty() && !is_lost && is_unclear(&product) {
@@ -188,7 +139,8 @@ fn attempt(
     let is_complete = whys.0.is_empty() && !is_lost;
     let (mut diagrams, mut needs_fairness) = (Default::default(), product.fair() > 0);
     let said = says(&mut product, is_complete);
-    let hopeful = solve(&product, Rules::of(&product, true));
+    let parents = Parents::of(&product);
+    let hopeful = solve(&product, &parents, Rules::of(&product, true));
     let bounded = of_proof(&product, &options.extents);
     let verdict = match said {
         // With other values of inputs there may be initial states.
@@ -209,11 +161,16 @@ fn attempt(
         Says::Nothing(_) if !bounded.is_empty() => Verdict::Unknown(bounded),
         Says::Nothing(vacuous) => Verdict::Vacuous(vacuous),
         said @ (Says::Something | Says::Perhaps(_)) => {
-            let sure = solve(&product, Rules::of(&product, false));
+            let rules = Rules::of(&product, false);
+            // Where all is clear nothing counts for either.
+            let sure = match is_complete && !is_unclear(&product) {
+                true => Solution { rules, ..hopeful },
+                false => solve(&product, &parents, rules),
+            };
             bounded.iter().for_each(|why| whys.add(*why));
             if sure.won {
                 diagrams = evidence::used(&product, &sure);
-                needs_fairness &= !solve(&product, Rules { fair: false, ..sure.rules }).won;
+                needs_fairness = needs_fairness && !solve(&product, &parents, Rules { fair: false, ..sure.rules }).won;
             }
             match (sure.won, said) {
                 (true, _) if needs_fairness && !has_fair_run(&product) => Verdict::Vacuous(Vacuous::NoFairRun),
@@ -261,11 +218,114 @@ fn attempt(
     }
     let idle = product.sides[ABSTRACT].steps.1 == 0;
     let properties = match verdict {
-        Verdict::Refines => preserved(&mut product),
+        Verdict::Refines => preserved(&mut product, &parents),
         _ => Vec::new(),
     };
     let dead_ends = product.sides[CONCRETE].dead_ends();
     Ok(Ok(Report { verdict, progress, diagrams, assumed, idle, dead_ends, properties, proof: None, runs: None }))
+}
+
+fn progress_of(product: &Product<'_>, queue: usize) -> Progress {
+    Progress {
+        pairs: product.pairs.len() as u64,
+        queue: queue as u64,
+        states: [ABSTRACT, CONCRETE].map(|side| product.sides[side].count() as u64),
+        steps: [ABSTRACT, CONCRETE].map(|side| product.sides[side].steps.0),
+    }
+}
+
+/// How far a search came.
+struct Searched {
+    /// Why it came no further.
+    whys: Whys,
+    /// It is lost, whatever comes.
+    is_lost: bool,
+    /// The first pair that was not looked at.
+    next: usize,
+}
+
+/// Looks at the pairs, one after the other, until all are known, or it is lost, or a limit is met.
+fn search(
+    product: &mut Product<'_>,
+    options: &Options,
+    watch: &mut dyn FnMut(&Progress) -> bool,
+) -> Result<Searched, (usize, Widening)> {
+    std::thread::scope(|scope| {
+        let ahead = Arc::new(Ahead::new());
+        let _end = Ending(&ahead);
+        let searched = searched(product, options, watch, &mut |product, next| {
+            for _ in 1..options.workers {
+                let recipes = product.sides.each_ref().map(|side| side.recipe.clone().ended_by(ahead.interrupt()));
+                let ahead = Arc::clone(&ahead);
+                // Steps may recurse deeply; beyond this, the stack grows on demand. Without a thread the search goes on alone.
+                let worker = std::thread::Builder::new().name("steps".to_string()).stack_size(16 << 20);
+                let _ = worker.spawn_scoped(scope, move || ahead.work(&recipes));
+            }
+            product.sides.iter_mut().for_each(|side| side.ahead(Some(&ahead)));
+            for (one, other) in &product.pairs[next..] {
+                product.sides[ABSTRACT].offer(*one);
+                product.sides[CONCRETE].offer(*other);
+            }
+        });
+        product.sides.iter_mut().for_each(|side| side.ahead(None));
+        searched
+    })
+}
+
+/// The same; `help` is called when the search has become long.
+fn searched<'c>(
+    product: &mut Product<'c>,
+    options: &Options,
+    watch: &mut dyn FnMut(&Progress) -> bool,
+    help: &mut dyn FnMut(&mut Product<'c>, usize),
+) -> Result<Searched, (usize, Widening)> {
+    let mut whys = Whys::default();
+    let (mut next, mut look_again, mut is_lost) = (0, LOOK, false);
+    while next < product.pairs.len() {
+        if next >= look_again {
+            // What is lost whatever comes need not wait for the rest of the search, which may have no end.
+            is_lost = !solve(product, &Parents::of(product), Rules::of(product, true)).won;
+            if is_lost {
+                break;
+            }
+            look_again = next * 2;
+        }
+        if next as u64 >= options.max_pairs {
+            whys.add(Why::Pairs(options.max_pairs));
+            break;
+        }
+        if product.sides.iter().map(|side| side.steps.0).sum::<u64>() >= options.max_steps {
+            whys.add(Why::Steps(options.max_steps));
+            break;
+        }
+        if next.is_multiple_of(64) && !watch(&progress_of(product, product.pairs.len() - next)) {
+            whys.add(Why::Stopped(Cause::Asked));
+            break;
+        }
+        if next == options.alone && options.workers > 1 && options.max_steps == u64::MAX {
+            help(product, next);
+        }
+        let asked = |side: usize| options.extents[side].interrupt.cause();
+        match asked(ABSTRACT).or(asked(CONCRETE)) {
+            Some(cause) => {
+                whys.add(Why::Stopped(cause));
+                break;
+            }
+            None => match product.explore(next as u32) {
+                Ok(()) => next += 1,
+                Err(Stopped::Narrow(side, widening)) => return Err((side, widening)),
+                Err(Stopped::Many) => {
+                    whys.add(Why::Steps(options.max_steps));
+                    break;
+                }
+                Err(Stopped::Interrupted) => {
+                    whys.add(Why::Stopped(asked(ABSTRACT).or(asked(CONCRETE)).unwrap_or(Cause::Asked)));
+                    break;
+                }
+            },
+        }
+    }
+    Ok(Searched { whys, is_lost, next })
 }
 
 /// What was not clear anywhere that matters.

@@ -4,31 +4,33 @@
 //! both machines share, so that they can be compared. INVARIANT: a state's moves are all of them, in the order of its alternatives, or
 //! the state has none and [`Stopped`] says why.
 
+mod ahead;
 mod followed;
 mod looked;
+mod stepper;
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::ops::ControlFlow;
 use std::rc::Rc;
 use std::sync::Arc;
 
-use explore::{
-    Explorer, Interner, Numbered, Outcome, Path, Reading, Settings, Start, Told, Trouble, Truth, Unbounded, Visitor,
-    Widening, input_values,
-};
-use machine::{Fault, FaultKind, Interrupt, Location, Value};
-use program::{Expression, FunctionId, Program, PropertyKind};
+use explore::{Numbered, Outcome, Start, Told, Trouble, Unbounded, Widening};
+use machine::{Fault, Interrupt, Location, Value};
+use program::{Expression, FunctionId, Program};
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::CONCRETE;
-use crate::computed::{Computed, Values};
+use crate::computed::Values;
+use crate::coupling::Coupling;
 use crate::joint::Bridge;
 use crate::limited::{Limit, limited};
 use crate::options::Extent;
+pub(crate) use ahead::{Ahead, Ending};
 use followed::Followed;
 pub(crate) use followed::Unmade;
 use looked::Looked;
 pub(crate) use looked::{Place, ValueId};
+use stepper::{Leads, Step};
+pub(crate) use stepper::{Recipe, Stepper, Steps};
 
 /// The number of a state of one machine.
 pub type StateId = u32;
@@ -144,26 +146,23 @@ impl<T: PartialEq> Kinds<T> {
 }
 
 /// One of the two machines.
-pub(crate) struct Side {
+pub(crate) struct Side<'c> {
     /// Which of the two it is.
     place: usize,
+    coupling: &'c Coupling,
     pub program: Arc<Program>,
-    pub explorer: Explorer,
+    pub stepper: Stepper,
+    /// For more steppers.
+    pub recipe: Recipe<'c>,
+    /// Who makes steps besides.
+    ahead: Option<Arc<Ahead>>,
     /// Looked at between states: diagrams may go through known ones for long.
     interrupt: Interrupt,
-    /// By input of the program: the inputs of the abstract machine that have its value.
-    pub shared: FxHashMap<FunctionId, Vec<u32>>,
-    /// Inputs of the abstract machine that are terms over this machine's steps.
-    computed: Option<Computed>,
-    /// Conditions that states which count satisfy.
-    assumed: usize,
     states: Numbered,
     moves: Vec<Option<Rc<[Move]>>>,
     faults: Kinds<String>,
     opens: Kinds<Unbounded>,
     looked: Looked,
-    /// By function, the term that reads it.
-    readers: FxHashMap<FunctionId, Expression>,
     /// Inputs of which bounds leave out values, and their locations at which the initial states or the steps of a state looked.
     pub limited: BTreeMap<FunctionId, Limit>,
     looked_at: BTreeMap<Option<StateId>, BTreeSet<Location>>,
@@ -171,62 +170,61 @@ pub(crate) struct Side {
     pub steps: (u64, u64),
     /// The most steps of one state that are gone through.
     pub most: u64,
-    /// A number beyond 64 bits ends a run, and is no fault.
-    pub ends_at_overflow: bool,
     /// If a run is followed: its steps, which are all that are made.
     followed: Option<Followed>,
 }
 
-impl Side {
-    /// A machine whose program has `readers` for the functions that a coupling reads.
+impl<'c> Side<'c> {
+    /// One of the machines of a coupling.
+    ///
+    /// # Errors
+    /// Its initial states cannot be made.
     pub fn new(
+        coupling: &'c Coupling,
         place: usize,
-        program: &Arc<Program>,
         extent: &Extent,
         widening: &Widening,
-        readers: FxHashMap<FunctionId, Expression>,
-        computed: Option<Computed>,
-    ) -> Result<Side, Trouble> {
-        let bounds = input_values(program, &extent.bounds, &extent.undefined);
-        let mut settings = Settings { limits: extent.limits.clone(), bounds: Arc::new(bounds), ..Settings::default() };
-        settings.interrupt = extent.interrupt.clone();
-        for property in program.properties.iter().filter(|property| property.kind == PropertyKind::Invar) {
-            match property.reads_monitored {
-                true => settings.step_conditions.push((property.formula.clone(), true)),
-                false => settings.conditions.push(property.formula.clone()),
-            }
-        }
-        let assumed = settings.conditions.len();
-        settings.read_in_steps = computed.as_ref().map(Computed::readers).unwrap_or_default();
-        let explorer = Explorer::new(program, settings, widening, &Arc::<Interner>::default())?;
-        let words = explorer.words();
+    ) -> Result<Side<'c>, Trouble> {
+        let mut recipe = Recipe::new(coupling, place, extent, widening);
+        let stepper = recipe.first()?;
+        let program = Arc::clone(&coupling.programs[place]);
         Ok(Side {
             place,
-            program: Arc::clone(program),
-            explorer,
+            coupling,
+            states: Numbered::new(stepper.explorer.words()),
+            stepper,
+            recipe,
+            ahead: None,
             interrupt: extent.interrupt.clone(),
-            shared: FxHashMap::default(),
-            computed,
-            assumed,
-            states: Numbered::new(words),
             moves: Vec::new(),
             faults: Kinds::default(),
             opens: Kinds::default(),
             looked: Looked::default(),
-            readers,
-            limited: limited(program, extent),
+            limited: limited(&program, extent),
+            program,
             looked_at: BTreeMap::new(),
             steps: (0, 0),
             most: u64::MAX,
-            ends_at_overflow: false,
             followed: None,
         })
+    }
+
+    /// From now on others make steps, too; or nobody else.
+    pub fn ahead(&mut self, ahead: Option<&Arc<Ahead>>) {
+        self.ahead = ahead.cloned();
+    }
+
+    /// Somebody will ask for the steps of a state.
+    pub fn offer(&self, state: StateId) {
+        if let Some(ahead) = self.ahead.as_ref().filter(|_| self.moves[state as usize].is_none()) {
+            ahead.offer((self.place, state), self.states.get(state));
+        }
     }
 
     /// From now on nothing is interrupted; for telling what was found.
     pub fn ignore_interrupts(&mut self) {
         self.interrupt = Interrupt::default();
-        self.explorer.ignore_interrupts();
+        self.stepper.explorer.ignore_interrupts();
     }
 
     /// How many states there are.
@@ -281,37 +279,31 @@ impl Side {
         let (number, is_new) = self.states.number(state);
         if is_new {
             self.moves.push(None);
+            // Of the abstract machine's states only those are asked for that correspond to something.
+            if self.place == CONCRETE {
+                self.offer(number);
+            }
         }
         number
-    }
-
-    /// Whether the assumptions hold in a state. One that cannot be evaluated counts against a refinement: such a state of the concrete machine
-    /// has to be answered, and one of the abstract machine is no answer.
-    fn is_assumed(&mut self, state: &[u64]) -> bool {
-        (0..self.assumed).all(|condition| match self.explorer.truth(condition, state) {
-            Truth::True => true,
-            Truth::False | Truth::Undef => false,
-            Truth::Fault | Truth::Unknown => self.place == CONCRETE,
-        })
     }
 
     /// The initial states, each with the inputs that it read.
     pub fn initial(&mut self, inputs: &mut Inputs, bridge: &Bridge) -> Vec<(LabelId, StateId, Start)> {
         let starts: Vec<(Box<[u64]>, Start)> =
-            self.explorer.initial().iter().map(|(state, start)| (state.into(), start)).collect();
+            self.stepper.explorer.initial().iter().map(|(state, start)| (state.into(), start)).collect();
         // With other values there may be states that the assumptions admit: those that were left out count, too.
         if !self.limited.is_empty() {
-            let asked = self.explorer.asked_by_starts().to_vec();
+            let asked = self.stepper.explorer.asked_by_starts().to_vec();
             self.look_at(None, &asked);
         }
         let mut found = Vec::new();
         let mut seen = FxHashSet::default();
         for (state, start) in starts {
-            let told = match self.shared.is_empty() {
+            let told = match self.shared().is_empty() {
                 true => Told::default(),
-                false => self.explorer.told_of_start(start),
+                false => self.stepper.explorer.told_of_start(start),
             };
-            if !self.is_assumed(&state) {
+            if !self.stepper.is_assumed(&state) {
                 continue;
             }
             let label = self.entries(&told.inputs, inputs, bridge);
@@ -322,6 +314,11 @@ impl Side {
             }
         }
         found
+    }
+
+    /// By input of this machine: the inputs of the abstract machine that have its value.
+    fn shared(&self) -> &'c FxHashMap<FunctionId, Vec<u32>> {
+        &self.coupling.shared[self.place]
     }
 
     /// What both machines have of the inputs that a step read, the inputs that are terms over it, and those that the state determines.
@@ -344,7 +341,7 @@ impl Side {
     fn entries(&self, read: &[(Location, Value)], inputs: &mut Inputs, bridge: &Bridge) -> Vec<(u32, u32)> {
         let mut entries = Vec::new();
         for (location, value) in read {
-            let Some(named) = self.shared.get(&location.function) else { continue };
+            let Some(named) = self.shared().get(&location.function) else { continue };
             let arguments: Option<Vec<Value>> = location.arguments.iter().map(|value| bridge.over(value)).collect();
             // What has no name in the joint model is a value that the other machine never has.
             let Some((arguments, value)) = arguments.zip(bridge.over(value)) else { continue };
@@ -358,10 +355,7 @@ impl Side {
         if self.interrupt.is_raised() {
             return Err(Stopped::Interrupted);
         }
-        Ok(match &self.followed {
-            Some(followed) => followed.moves(state),
-            None => self.moves[state as usize].clone(),
-        })
+        Ok(self.made(state))
     }
 
     /// The steps of a state; `given` are the inputs of the abstract machine that this state determines.
@@ -379,100 +373,52 @@ impl Side {
             let goal = Goal::Open(self.opens.number(Followed::NOTHING));
             return Ok(Rc::from([Move { label: inputs.label(Vec::new()), goal }]));
         }
-        let moves = match self.unlabelled(state, given, inputs)? {
-            Some(moves) => moves,
-            None => self.labelled(state, given, inputs, bridge)?,
+        let ahead = self.ahead.as_ref().and_then(|ahead| ahead.take((self.place, state), &self.interrupt));
+        let steps = match ahead {
+            Some(made) => made?,
+            None => self.stepper.steps(self.states.get(state), self.most, bridge)?,
         };
+        let moves: Rc<[Move]> = self.numbered(state, steps, given, inputs, bridge).into();
         self.steps.0 += moves.len() as u64;
         self.steps.1 += moves.iter().filter(|made| made.goal != Goal::State(state)).count() as u64;
-        let moves: Rc<[Move]> = moves.into();
         self.moves[state as usize] = Some(Rc::clone(&moves));
         Ok(moves)
     }
 
-    /// The steps of a state, as a search makes them: remembered or compiled. None if somebody has to know more of a step than where it leads.
-    fn unlabelled(
+    /// Steps with numbers, each once.
+    fn numbered(
         &mut self,
         state: StateId,
-        given: &[(u32, u32)],
-        inputs: &mut Inputs,
-    ) -> Result<Option<Vec<Move>>, Stopped> {
-        let reads = !self.shared.is_empty() || self.computed.is_some() || !self.limited.is_empty();
-        if reads || self.most < u64::MAX {
-            return Ok(None);
-        }
-        let (packed, mut successors) = (self.packed(state), Vec::new());
-        let expansion = match self.explorer.expand(&packed, &mut successors) {
-            Err(widening) => return Err(Stopped::Narrow(self.place, widening)),
-            Ok(expansion) if expansion.interrupted => return Err(Stopped::Interrupted),
-            Ok(expansion) => expansion,
-        };
-        if expansion.faults != [0; 3] || expansion.unbounded > 0 {
-            return Ok(None);
-        }
-        let label = inputs.label(given.to_vec());
-        let mut moves = Vec::new();
-        let mut seen = FxHashSet::default();
-        let stays = (expansion.stayed > 0).then_some(&*packed);
-        for next in successors.chunks_exact(packed.len().max(1)).chain(stays) {
-            if seen.insert(next) && self.is_assumed(next) {
-                moves.push(Move { label, goal: Goal::State(self.number(next)) });
-            }
-        }
-        Ok(Some(moves))
-    }
-
-    /// The same, with the inputs of each step, by the machine.
-    fn labelled(
-        &mut self,
-        state: StateId,
+        steps: Steps,
         given: &[(u32, u32)],
         inputs: &mut Inputs,
         bridge: &Bridge,
-    ) -> Result<Vec<Move>, Stopped> {
-        let packed = self.packed(state);
-        let most = self.most;
-        let mut paths =
-            Paths { computed: self.computed.as_mut(), bridge, most, values: Values::new(), found: Vec::new() };
-        let whole = self.explorer.paths_read(&packed, &mut paths);
-        let paths = paths.found;
-        match whole {
-            Ok(true) if paths.len() as u64 > most => return Err(Stopped::Many),
-            Err(widening) => return Err(Stopped::Narrow(self.place, widening)),
-            Ok(false) => return Err(Stopped::Interrupted),
-            Ok(true) => {}
-        }
-        let mut moves = Vec::new();
+    ) -> Vec<Move> {
+        let steps = match steps {
+            Steps::Plain(next) => {
+                let label = inputs.label(given.to_vec());
+                let words = self.stepper.explorer.words().max(1);
+                let made = |next: &[u64]| Move { label, goal: Goal::State(self.number(next)) };
+                return next.chunks_exact(words).map(made).collect();
+            }
+            Steps::Labelled(steps) => steps,
+        };
+        let mut moves = Vec::with_capacity(steps.len());
         let mut seen = FxHashSet::default();
-        for (Path { inputs: read, outcome, .. }, values) in paths {
+        for Step { read, values, leads } in steps {
             self.look_at(Some(state), &read);
-            let label = self.label(&read, values, given, inputs, bridge);
-            let goal = match outcome {
-                Outcome::Next(next) => {
-                    if !self.is_assumed(&next) {
-                        continue;
-                    }
-                    Goal::State(self.number(&next))
-                }
-                Outcome::Fault(fault) if matches!(fault.kind, FaultKind::Interrupted(_)) => {
-                    return Err(Stopped::Interrupted);
-                }
-                Outcome::Fault(fault) if self.is_end(&fault) => continue,
-                Outcome::Fault(fault) => Goal::Fault(self.faults.number(fault.show(&self.program).to_string())),
-                Outcome::Unbounded(unbounded) => Goal::Open(self.opens.number(unbounded)),
-                Outcome::Excluded => continue,
+            let goal = match leads {
+                Leads::State(next) => Goal::State(self.number(&next)),
+                Leads::Fault(fault) => Goal::Fault(self.faults.number(fault)),
+                Leads::Open(unbounded) => Goal::Open(self.opens.number(unbounded)),
+                Leads::Nowhere => continue,
             };
-            let made = Move { label, goal };
+            let made = Move { label: self.label(&read, values, given, inputs, bridge), goal };
             if seen.insert(made) {
                 moves.push(made);
             }
         }
-        Ok(moves)
-    }
-
-    /// Whether a fault only says that runs are looked at no further.
-    fn is_end(&self, fault: &Fault) -> bool {
-        self.ends_at_overflow && matches!(fault.kind, FaultKind::Overflow { .. })
+        moves
     }
 
     /// The number of a function with arguments.
@@ -490,10 +436,11 @@ impl Side {
     }
 
     fn look(&mut self, state: StateId, place: Place) -> ValueId {
-        let Side { explorer, readers, states, looked, program, .. } = self;
+        let Side { stepper, coupling, states, looked, .. } = self;
         let (function, arguments) = looked.told(place);
-        let value = explorer.evaluate_with(&readers[function], arguments, states.get(state));
-        let value = value.map_err(|fault| fault.show(program).to_string());
+        let reader = &coupling.readers[self.place][function];
+        let value = stepper.explorer.evaluate_with(reader, arguments, states.get(state));
+        let value = value.map_err(|fault| stepper.told(&fault));
         looked.note(place, state, states.len(), value)
     }
 
@@ -507,17 +454,20 @@ impl Side {
     /// # Errors
     /// What evaluation meets.
     pub fn evaluate(&mut self, formula: &Expression, state: StateId) -> Result<Value, Fault> {
-        self.explorer.evaluate(formula, self.states.get(state))
+        self.stepper.explorer.evaluate(formula, self.states.get(state))
     }
 
-    /// The steps of a state, if it was looked at.
-    pub fn made(&self, state: StateId) -> Option<&[Move]> {
-        self.moves[state as usize].as_deref()
+    /// The same, whoever wants to stop.
+    pub fn made(&self, state: StateId) -> Option<Rc<[Move]>> {
+        match &self.followed {
+            Some(followed) => followed.moves(state),
+            None => self.moves[state as usize].clone(),
+        }
     }
 
     /// The locations of a function that have a value in a state, in canonical order.
     pub fn located(&mut self, state: StateId, function: FunctionId) -> Vec<(Vec<Value>, Value)> {
-        let values = self.explorer.values(self.states.get(state));
+        let values = self.stepper.explorer.values(self.states.get(state));
         let of = values.into_iter().filter(|(location, _)| location.function == function);
         of.map(|(location, value)| (location.arguments, value)).collect()
     }
@@ -535,10 +485,7 @@ impl Side {
             return followed.told(from, wanted);
         }
         let packed = self.packed(from);
-        let (most, computed) = (u64::MAX, self.computed.as_mut());
-        let mut paths = Paths { computed, bridge, most, values: Values::new(), found: Vec::new() };
-        let _ = self.explorer.paths_read(&packed, &mut paths);
-        let paths = paths.found;
+        let (paths, _) = self.stepper.paths(&packed, u64::MAX, bridge);
         let (path, _) = paths.into_iter().find(|(path, values)| {
             let leads = match (&path.outcome, &wanted.goal) {
                 (Outcome::Next(next), Goal::State(to)) => **next == *self.states.get(*to),
@@ -549,36 +496,6 @@ impl Side {
             };
             leads && self.label(&path.inputs, values.clone(), given, inputs, bridge) == wanted.label
         })?;
-        let Side { explorer, computed, .. } = self;
-        let mut read = |step: &mut Reading<'_>| match computed {
-            Some(computed) => computed.values(step, bridge).map(|_| ()),
-            None => Ok(()),
-        };
-        Some(explorer.tell_read(&packed, &path.picks, &mut read))
-    }
-}
-
-/// The alternatives of a state, each with the inputs that are terms over it.
-struct Paths<'p> {
-    computed: Option<&'p mut Computed>,
-    bridge: &'p Bridge,
-    /// So many are enough.
-    most: u64,
-    /// Those of the alternative that is looked at.
-    values: Values,
-    found: Vec<(Path, Values)>,
-}
-
-impl Visitor for Paths<'_> {
-    fn read(&mut self, step: &mut Reading<'_>) -> Result<(), Fault> {
-        if let Some(computed) = &mut self.computed {
-            self.values = computed.values(step, self.bridge)?;
-        }
-        Ok(())
-    }
-
-    fn visit(&mut self, path: Path) -> ControlFlow<()> {
-        self.found.push((path, std::mem::take(&mut self.values)));
-        if self.found.len() as u64 > self.most { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        Some(self.stepper.tell(&packed, &path.picks, bridge))
     }
 }

@@ -8,7 +8,7 @@ use program::PropertyKind;
 
 use crate::CONCRETE;
 use crate::coupling::Coupling;
-use crate::game::{Rules, solve};
+use crate::game::{Parents, Rules, solve};
 use crate::product::Product;
 
 /// Which concrete states correspond to abstract ones.
@@ -54,9 +54,9 @@ impl Transfer {
     }
 
     /// Of a product whose game is won by the coupling's rules.
-    pub(crate) fn of(product: &mut Product<'_>) -> Transfer {
+    pub(crate) fn of(product: &mut Product<'_>, parents: &Parents) -> Transfer {
         let rules = Rules::of(product, false);
-        let is_won = |product: &Product<'_>, rules: Rules| solve(product, rules).won;
+        let is_won = |product: &Product<'_>, rules: Rules| solve(product, parents, rules).won;
         let single = Rules { most_n: 1, ..rules };
         let segments = product.judge.coupling.segment.is_some();
         // A run that ends within a diagram, where assumptions leave no step, passes through states that correspond to nothing.

@@ -46,7 +46,7 @@ pub struct Instance {
 pub type Differs = Vec<(String, String)>;
 
 /// The part of the coupling with this index, of two states.
-pub(crate) fn why(judge: &mut Judge<'_>, sides: &mut [Side; 2], index: usize, states: [StateId; 2]) -> Part {
+pub(crate) fn why<'c>(judge: &mut Judge<'c>, sides: &mut [Side<'c>; 2], index: usize, states: [StateId; 2]) -> Part {
     let coupling = judge.coupling;
     let text = coupling.conjunct(index);
     match &coupling.conjuncts[index] {
@@ -115,7 +115,7 @@ fn shown(coupling: &Coupling, read: &Read) -> (String, String) {
 /// What fails of a term, as it is found.
 struct Telling<'t, 'c> {
     judge: &'t mut Judge<'c>,
-    sides: &'t mut [Side; 2],
+    sides: &'t mut [Side<'c>; 2],
     states: [StateId; 2],
     frame: u32,
     names: Vec<String>,

@@ -12,3 +12,4 @@ mod small;
 mod spec;
 mod stuck;
 mod unclear;
+mod workers;

@@ -52,6 +52,9 @@ pub struct Arguments {
     /// The most pairs of states
     #[arg(long, value_name = "N", value_parser = crate::limits::count)]
     max_states: Option<u64>,
+    /// The number of threads that make steps. Default: the number of processors
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=256))]
+    workers: Option<u64>,
     /// The most memory that the program may take, in MiB
     #[arg(long, value_name = "MIB", default_value_t = 8192)]
     max_memory: u64,
@@ -125,7 +128,10 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
             return Ok(Exit::World);
         }
     };
-    let mut options = Options { max_pairs: arguments.max_states.unwrap_or(u64::MAX), ..Options::default() };
+    let processors = std::thread::available_parallelism().map_or(1, usize::from);
+    let workers = arguments.workers.map_or(processors, |workers| workers as usize);
+    let max_pairs = arguments.max_states.unwrap_or(u64::MAX);
+    let mut options = Options { max_pairs, workers, ..Options::default() };
     for (side, model) in models.iter().enumerate() {
         options.extents[side] = Extent { limits: limits.clone(), ..Extent::default() };
         assumed[side].put(&mut options.extents[side]);

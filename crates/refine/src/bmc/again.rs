@@ -20,7 +20,7 @@ use crate::formulas::Begun;
 use crate::formulas::ask::Model;
 use crate::formulas::symbolic::input_location;
 use crate::formulas::values::{Values, least, values};
-use crate::game::{Rules, solve};
+use crate::game::{Parents, Rules, solve};
 use crate::options::Options;
 use crate::product::{Node, Product};
 use crate::refine::{begun as begin, why_of};
@@ -179,7 +179,7 @@ fn played(product: &mut Product<'_>, start: usize, run: &[Made]) -> Result<Refut
         next += 1;
     }
     product.sides.iter_mut().for_each(|side| side.ignore_interrupts());
-    let hopeful = solve(product, Rules::of(product, true));
+    let hopeful = solve(product, &Parents::of(product), Rules::of(product, true));
     match hopeful.won {
         false => Ok(refutation(product, &hopeful)),
         true => {

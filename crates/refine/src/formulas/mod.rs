@@ -132,7 +132,7 @@ fn starts(coupling: &Coupling, options: &Options) -> Result<([Vec<Told>; 2], Vec
         }
     }
     let told = [ABSTRACT, CONCRETE].map(|side| {
-        let of = |start: &Start| product.sides[side].explorer.told_of_start(*start);
+        let of = |start: &Start| product.sides[side].stepper.explorer.told_of_start(*start);
         starts[side].iter().map(of).collect()
     });
     Ok((told, begun))

@@ -32,7 +32,7 @@ pub(super) struct Remembered {
 impl Remembered {
     /// Whether it is true of two states, if that is known.
     #[inline]
-    pub fn truth(&self, sides: &mut [Side; 2], states: [StateId; 2]) -> Option<bool> {
+    pub fn truth(&self, sides: &mut [Side<'_>; 2], states: [StateId; 2]) -> Option<bool> {
         let mut at = 0;
         loop {
             match *self.nodes.get(at as usize)? {

@@ -45,7 +45,7 @@ impl Numbers {
     }
 
     /// The number of a value that has another one in its machine.
-    fn over(&mut self, coupling: &Coupling, of: &Side, side: usize, value: ValueId) -> u32 {
+    fn over(&mut self, coupling: &Coupling, of: &Side<'_>, side: usize, value: ValueId) -> u32 {
         let place = value as usize;
         if self.over[side].len() <= place {
             self.over[side].resize(place + 1, 0);
@@ -82,7 +82,7 @@ impl Same {
         &mut self,
         coupling: &Coupling,
         numbers: &mut Numbers,
-        sides: &mut [Side; 2],
+        sides: &mut [Side<'_>; 2],
         side: usize,
         state: StateId,
     ) -> u32 {
@@ -124,7 +124,13 @@ impl Same {
 }
 
 /// Where a machine has the value of a function at arguments of the joint model.
-fn place(coupling: &Coupling, of: &mut Side, side: usize, function: FunctionId, arguments: &[Value]) -> Option<Place> {
+fn place(
+    coupling: &Coupling,
+    of: &mut Side<'_>,
+    side: usize,
+    function: FunctionId,
+    arguments: &[Value],
+) -> Option<Place> {
     let bridge = &coupling.joint.bridges[side];
     let there: Option<Vec<Value>> = arguments.iter().map(|value| bridge.back(value)).collect();
     there.map(|there| of.place(function, there))
@@ -133,7 +139,7 @@ fn place(coupling: &Coupling, of: &mut Side, side: usize, function: FunctionId, 
 /// The locations of a function that have a value in a state, as the joint model has them.
 fn located(
     coupling: &Coupling,
-    of: &mut Side,
+    of: &mut Side<'_>,
     side: usize,
     function: FunctionId,
     state: StateId,
@@ -150,7 +156,7 @@ fn located(
 pub(super) fn values(
     coupling: &Coupling,
     conjunct: usize,
-    sides: &mut [Side; 2],
+    sides: &mut [Side<'_>; 2],
     side: usize,
     state: StateId,
 ) -> BTreeMap<Vec<Value>, Value> {

@@ -6,13 +6,12 @@
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
-use explore::{Outcome, Reading, Told, Unbounded, UnboundedKind};
+use explore::{Outcome, Told, Unbounded, UnboundedKind};
 use machine::{Location, Value};
 use rustc_hash::FxHashMap;
 use syntax::{FileId, Span};
 
-use super::{Goal, Inputs, Move, Paths, Side, StateId, Stopped};
-use crate::computed::Values;
+use super::{Goal, Inputs, Move, Side, StateId, Stopped};
 use crate::joint::Bridge;
 
 /// Why a step of a run is not made.
@@ -53,7 +52,7 @@ impl Followed {
     }
 }
 
-impl Side {
+impl Side<'_> {
     /// Makes a step of a run with these inputs, to a state in which locations have the values that are `wanted`, or to a fault; and follows
     /// the run from now on: no steps are made but those of runs that were followed.
     pub fn follow(
@@ -65,9 +64,9 @@ impl Side {
         inputs: &mut Inputs,
         bridge: &Bridge,
     ) -> Result<Option<StateId>, Unmade> {
-        self.explorer.give(values.clone());
+        self.stepper.explorer.give(values.clone());
         let made = self.followed_by(state, wanted, given, inputs, bridge);
-        self.explorer.give(BTreeMap::new());
+        self.stepper.explorer.give(BTreeMap::new());
         made
     }
 
@@ -81,10 +80,7 @@ impl Side {
     ) -> Result<Option<StateId>, Unmade> {
         let packed = self.packed(state);
         let most = self.most;
-        let mut paths =
-            Paths { computed: self.computed.as_mut(), bridge, most, values: Values::new(), found: Vec::new() };
-        let whole = self.explorer.paths_read(&packed, &mut paths);
-        let paths = paths.found;
+        let (paths, whole) = self.stepper.paths(&packed, most, bridge);
         match whole {
             Ok(true) => {}
             Err(widening) => return Err(Unmade::Stopped(Stopped::Narrow(self.place, widening))),
@@ -96,11 +92,11 @@ impl Side {
         };
         for (path, values) in paths {
             let goal = match (&path.outcome, wanted) {
-                (Outcome::Next(next), Some(wanted)) if self.is_assumed(next) && self.has(next, wanted) => {
+                (Outcome::Next(next), Some(wanted)) if self.stepper.is_assumed(next) && self.has(next, wanted) => {
                     Goal::State(self.number(next))
                 }
-                (Outcome::Fault(fault), None) if fault.kind.is_of_the_model() && !self.is_end(fault) => {
-                    Goal::Fault(self.faults.number(fault.show(&self.program).to_string()))
+                (Outcome::Fault(fault), None) if fault.kind.is_of_the_model() && !self.stepper.is_end(fault) => {
+                    Goal::Fault(self.faults.number(self.stepper.told(fault)))
                 }
                 (Outcome::Unbounded(unbounded), _) => {
                     why = Unmade::Unbounded(*unbounded);
@@ -109,12 +105,7 @@ impl Side {
                 _ => continue,
             };
             let label = self.label(&path.inputs, values, given, inputs, bridge);
-            let Side { explorer, computed, .. } = self;
-            let mut read = |step: &mut Reading<'_>| match computed {
-                Some(computed) => computed.values(step, bridge).map(|_| ()),
-                None => Ok(()),
-            };
-            let told = explorer.tell_read(&packed, &path.picks, &mut read);
+            let told = self.stepper.tell(&packed, &path.picks, bridge);
             let to = if let Goal::State(to) = goal { Some(to) } else { None };
             let made = Move { label, goal };
             self.followed.get_or_insert_with(Followed::default).add(state, made, told);
@@ -125,7 +116,7 @@ impl Side {
 
     /// Whether locations have these values in a state.
     fn has(&mut self, state: &[u64], wanted: &[(Location, Value)]) -> bool {
-        let values: FxHashMap<Location, Value> = self.explorer.values(state).into_iter().collect();
+        let values: FxHashMap<Location, Value> = self.stepper.explorer.values(state).into_iter().collect();
         wanted.iter().all(|(location, value)| *values.get(location).unwrap_or(&Value::Undef) == *value)
     }
 }
