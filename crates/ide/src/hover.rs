@@ -4,13 +4,16 @@
 //! library, what spec/standard-library.md says.
 
 use std::collections::BTreeSet;
+use std::path::Path;
 use std::sync::Arc;
 
+use groundstate::Kind;
 use groundstate::workspace::Files;
 use model::{DomainKind, FunctionId, FunctionKind, Referent, Rule, Use, kind_word};
 use syntax::Span;
 
 use crate::analysis::{Analysis, Place, Role};
+use crate::coupling;
 use crate::navigate::others_that_write;
 use crate::project::Project;
 
@@ -29,6 +32,17 @@ pub struct Hover {
 /// What there is to know of the name at an offset.
 pub fn hover<F: Files>(project: &mut Project<F>, path: &str, offset: u32) -> Option<Hover> {
     let analysis = project.analysis(path).ok()?;
+    if Kind::of(Path::new(path)) == Some(Kind::Coupling) {
+        let named = coupling::named(project, &analysis, offset)?;
+        let mut parts: Vec<String> = named
+            .meant
+            .iter()
+            .map(|(model, referent)| describe(model, *referent, &[]) + &declared_in(model, *referent))
+            .collect();
+        parts.dedup();
+        let place = Place { path: path.to_string(), range: named.range };
+        return Some(Hover { place, text: parts.join("\n\n---\n\n") });
+    }
     let names = analysis.names_at(offset);
     let first = names.first()?;
     let written = &analysis.text()[first.span.range()];
@@ -44,6 +58,12 @@ pub fn hover<F: Files>(project: &mut Project<F>, path: &str, offset: u32) -> Opt
     let mut parts: Vec<String> = names.iter().map(|name| describe(&analysis, name.referent, &others)).collect();
     parts.dedup();
     Some(Hover { place: analysis.place(first.span), text: parts.join("\n\n---\n\n") })
+}
+
+/// Which model something is declared in, where its description does not say so.
+fn declared_in(model: &Analysis, referent: Referent) -> String {
+    let is_own = model.declaration(referent).is_some_and(|span| span.file == model.file);
+    if is_own { format!("\n\nDeclared in `{}`.", model.source().name) } else { String::new() }
 }
 
 fn describe(analysis: &Analysis, referent: Referent, others: &[Arc<Analysis>]) -> String {

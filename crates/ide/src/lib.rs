@@ -9,6 +9,7 @@
 mod analysis;
 mod calls;
 mod complete;
+mod coupling;
 mod diagram;
 mod fix;
 mod hint;

@@ -3,14 +3,17 @@
 //! In: a project, a file and an offset. Out: places. Each file is asked about itself alone, so a place is found once. Only files
 //! in which the name is written are looked at.
 
+use std::path::Path;
 use std::sync::Arc;
 
+use groundstate::Kind;
 use groundstate::workspace::Files;
 use model::{Referent, Use};
 use syntax::ast::{self, AstNode};
 use syntax::{Span, SyntaxKind, SyntaxToken};
 
 use crate::analysis::{Analysis, Place, Role, Symbol};
+use crate::coupling;
 use crate::project::Project;
 
 /// A place that names something, and what is done there.
@@ -25,6 +28,9 @@ pub struct Reference {
 /// Where what is named at an offset is declared; for a path in an import, and for the machine of an elaboration, the beginning of the file.
 pub fn definition<F: Files>(project: &mut Project<F>, path: &str, offset: u32) -> Vec<Place> {
     let Ok(analysis) = project.analysis(path) else { return Vec::new() };
+    if Kind::of(Path::new(path)) == Some(Kind::Coupling) {
+        return in_coupling(project, &analysis, offset);
+    }
     if let Some((_, target)) = path_at(project, &analysis, offset) {
         return vec![Place { path: target, range: (0, 0) }];
     }
@@ -36,6 +42,26 @@ pub fn definition<F: Files>(project: &mut Project<F>, path: &str, offset: u32) -
     // What is asked of a system may have its names from a model that was not built yet.
     let mut there = |place: &Place| project.text(&place.path).is_ok();
     places.collect::<Vec<_>>().into_iter().filter(|place| there(place)).collect()
+}
+
+/// The same of a coupling: of what both machines have, both places.
+fn in_coupling<F: Files>(project: &mut Project<F>, analysis: &Analysis, offset: u32) -> Vec<Place> {
+    let paths = coupling::paths(analysis.text()).into_iter();
+    let path = paths.filter(|(_, (start, end), _)| (*start..=*end).contains(&offset)).find_map(|(.., path)| {
+        let target = project.target(analysis.source(), &path)?;
+        Some(Place { path: target, range: (0, 0) })
+    });
+    if let Some(place) = path {
+        return vec![place];
+    }
+    let named = coupling::named(project, analysis, offset);
+    let places = named.into_iter().flat_map(|named| named.meant).filter_map(|(model, referent)| {
+        let span = model.declaration(referent)?;
+        Some(model.place(span))
+    });
+    let mut places: Vec<Place> = places.collect();
+    places.dedup();
+    places
 }
 
 /// Where what is named at an offset gets its meaning: the definition of a function, the body of a rule, the initial value.
@@ -143,6 +169,12 @@ pub fn highlights<F: Files>(project: &mut Project<F>, path: &str, offset: u32) -
 pub fn links<F: Files>(project: &mut Project<F>, path: &str) -> Vec<(Place, String)> {
     let Ok(analysis) = project.analysis(path) else { return Vec::new() };
     let mut found = Vec::new();
+    if Kind::of(Path::new(path)) == Some(Kind::Coupling) {
+        for (_, range, written) in coupling::paths(analysis.text()) {
+            let target = project.target(analysis.source(), &written);
+            found.extend(target.map(|target| (Place { path: path.to_string(), range }, target)));
+        }
+    }
     for (token, written) in paths(&analysis) {
         if let Some(target) = project.target(analysis.source(), &written) {
             found.push((analysis.place(Span::new(analysis.file, token.text_range())), target));

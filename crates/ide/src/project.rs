@@ -271,7 +271,7 @@ impl<F: Files> Project<F> {
                     self.over_model(source, model.file_name().map(|name| name.to_string_lossy().into_owned()))
                 }
             }
-            // LIMIT: nothing is known of a coupling's names.
+            // A coupling's names are those of two models: they are looked up when somebody asks.
             Some(Kind::Coupling) | None => {
                 self.workspace.reading(|workspace| {
                     // The text is what the answers depend on.

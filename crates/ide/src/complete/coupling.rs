@@ -12,17 +12,8 @@ use model::FunctionKind;
 
 use super::{Item, ItemKind, functions, paths, snippet};
 use crate::analysis::Analysis;
+use crate::coupling::{is_word, models, place, side_before};
 use crate::project::Project;
-
-/// A place in a coupling.
-struct Place<'t> {
-    /// The statement up to the place, from its first word on.
-    statement: &'t str,
-    /// The word at the place.
-    range: (u32, u32),
-    /// It stands in a string.
-    quoted: bool,
-}
 
 /// What can be written at an offset, and what it takes the place of.
 pub(super) fn completion<F: Files>(
@@ -32,7 +23,7 @@ pub(super) fn completion<F: Files>(
 ) -> Option<((u32, u32), Vec<Item>)> {
     let text = analysis.text();
     let place = place(text, offset)?;
-    let models = [ABSTRACT, CONCRETE].map(|side| model(project, analysis, text, SIDES[side]));
+    let models = models(project, analysis);
     let mut words = place.statement.split(|c: char| !is_word(c));
     let first = words.next().unwrap_or("");
     if place.quoted {
@@ -43,10 +34,7 @@ pub(super) fn completion<F: Files>(
         return Some((place.range, statements()));
     }
     let before = place.statement[..place.statement.len() - (offset - place.range.0) as usize].trim_end();
-    let side = SIDES.iter().position(|side| {
-        let named = before.strip_suffix('.').and_then(|rest| rest.strip_suffix(side));
-        named.is_some_and(|rest| !rest.ends_with(is_word))
-    });
+    let side = side_before(before);
     let mapped = first == "input" && place.statement.contains('=');
     let items = match (first, side) {
         ("free" | "input", Some(ABSTRACT)) if !mapped => of(&models[ABSTRACT], |kind| kind == FunctionKind::Monitored),
@@ -64,54 +52,6 @@ pub(super) fn completion<F: Files>(
         _ => Vec::new(),
     };
     Some((place.range, items))
-}
-
-fn is_word(letter: char) -> bool {
-    letter.is_alphanumeric() || letter == '_'
-}
-
-/// The place at an offset; none in a comment.
-fn place(text: &str, offset: u32) -> Option<Place<'_>> {
-    let before = text.get(..offset as usize)?;
-    let (mut start, mut at, mut quoted) = (0, 0, false);
-    while at < before.len() {
-        let rest = &before[at..];
-        let next = rest.chars().next()?;
-        if quoted {
-            quoted = next != '"';
-        } else if rest.starts_with("//") {
-            at += rest.find('\n')?;
-            start = if before[start..at].trim_start().starts_with("//") { at } else { start };
-            continue;
-        } else if rest.starts_with("/*") {
-            let end = rest.find("*/")? + 2;
-            start = if before[start..at].trim().is_empty() { at + end } else { start };
-            at += end;
-            continue;
-        } else {
-            quoted = next == '"';
-            start = if next == ';' { at + 1 } else { start };
-        }
-        at += next.len_utf8();
-    }
-    let behind = text[offset as usize..].find(|c: char| !is_word(c)).unwrap_or(text.len() - offset as usize);
-    let word = before.len() - before.trim_end_matches(is_word).len();
-    let quote = before.rfind('"').map_or(before.len(), |quote| quote + 1);
-    let from = if quoted { quote } else { before.len() - word };
-    Some(Place { statement: before[start..].trim_start(), range: (from as u32, offset + behind as u32), quoted })
-}
-
-/// The model that a side's statement names.
-fn model<F: Files>(project: &mut Project<F>, own: &Analysis, text: &str, side: &str) -> Option<Arc<Analysis>> {
-    let named = text.match_indices(side).find_map(|(at, _)| {
-        let begins = text[..at].trim_end().is_empty()
-            || text[..at].trim_end().ends_with([';', '/'])
-            || text[..at].ends_with('\n');
-        let path = text[at + side.len()..].trim_start().strip_prefix('"')?.split('"').next()?;
-        begins.then(|| path.to_string())
-    })?;
-    let target = project.target(own.source(), &named)?;
-    project.analysis(&target).ok()
 }
 
 fn is_state(kind: FunctionKind) -> bool {
