@@ -384,8 +384,13 @@ fn says(product: &mut Product<'_>, is_complete: bool) -> Says {
         return Says::Nothing(Vacuous::NoStep);
     }
     let [one, other] = [ABSTRACT, CONCRETE].map(|side| product.sides[side].count());
-    if product.judge.distinguishes || one < 2 || other < 2 {
+    if product.judge.distinguishes {
         return Says::Something;
+    }
+    if one < 2 || other < 2 {
+        // With other values of inputs there may be more states, and all of them may correspond.
+        let is_whole = product.sides.iter().all(|side| side.limited_and_read().is_empty());
+        return if is_whole { Says::Something } else { Says::Perhaps(one * other) };
     }
     // Without all states no relation is known to hold of every two.
     let nothing = if is_complete { Says::Nothing(Vacuous::Total) } else { Says::Perhaps(one * other) };

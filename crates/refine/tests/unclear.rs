@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use machine::Value;
 use program::Program;
-use refine::{ABSTRACT, CONCRETE, Ended, Verdict, Why};
+use refine::{ABSTRACT, CONCRETE, Ended, Vacuous, Verdict, Why};
 
 use crate::small::{bounded, machine, refuted, report};
 
@@ -70,4 +70,25 @@ fn initial_states_that_an_assumption_over_inputs_leaves_out_looked_at_inputs_too
     let two = begun("", "2");
     assert_eq!(bounded([&late, &two], free, [&[], &[]]), Verdict::Refines);
     assert_eq!(bounded([&late, &two], free, [&[("level", low)], &[]]), unknown(ABSTRACT));
+}
+
+#[test]
+fn a_single_state_may_be_one_of_several_without_bounds() {
+    let rule = "if go then h := not h else n := 0 endif";
+    let signature = format!("monitored go: Boolean controlled h: Boolean {N}");
+    let of = |rule: &str| {
+        machine(
+            &signature,
+            &format!("domain N = {{0:3}} main rule r_Main = {rule}"),
+            "function n = 0 function h = false",
+        )
+    };
+    let (one, text) = (of(rule), "same n; free abstract.go;");
+    let never: &[(&str, &[Value])] = &[("go", &[Value::Boolean(false)])];
+    assert_eq!(bounded([&one, &one], text, [&[], &[]]), Verdict::Vacuous(Vacuous::Total));
+    // With the other value there is a second state, and the coupling tells nothing apart.
+    assert_eq!(bounded([&one, &one], text, [never, &[]]), Verdict::Unknown(vec![Why::Undistinguished(2)]));
+    // A machine that looks at no input has one state, whatever is tried.
+    let still = of("n := 0");
+    assert_eq!(bounded([&still, &one], text, [never, &[]]), Verdict::Refines);
 }
