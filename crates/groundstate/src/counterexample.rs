@@ -8,11 +8,11 @@ use std::fmt::Write;
 use std::sync::Arc;
 
 use machine::{Limits, Location, Show, Value};
-use program::Program;
+use program::{FunctionKind, Program};
 use simulate::{Decided, Header, Inputs, Options, Run};
 use verify::{Subject, Trace};
 
-use crate::avalla::{pick, set};
+use crate::avalla::{is_written, pick, set};
 
 /// The run of a counterexample. The header sets the number of steps and how invariants are treated.
 pub fn counterexample_run(program: &Arc<Program>, limits: Limits, trace: &Trace, header: &Header) -> Run {
@@ -30,6 +30,9 @@ pub fn counterexample_scenario(program: &Program, trace: &Trace, subject: Subjec
     let mut text = format!("scenario {name}\nload \"{model}\"\n");
     let mut given: Vec<(Location, Value)> = Vec::new();
     set(&mut text, program, &mut given, &trace.start.inputs);
+    if !trace.start.choices.is_empty() {
+        begin(&mut text, program, &trace.values);
+    }
     let last = trace.steps.len();
     for (index, step) in trace.steps.iter().enumerate() {
         let _ = write!(text, "\n// step {}\n", index + 1);
@@ -56,6 +59,30 @@ pub fn counterexample_scenario(program: &Program, trace: &Trace, subject: Subjec
         rest(&mut text, program, trace);
     }
     text
+}
+
+/// Puts the initial state that was chosen among several: a scenario picks in steps alone.
+fn begin(text: &mut String, program: &Program, values: &[(Location, Value)]) {
+    let is_own = |location: &Location| {
+        let kind = program.function(location.function).kind;
+        matches!(kind, FunctionKind::Controlled | FunctionKind::Shared | FunctionKind::Out)
+    };
+    let (said, unsaid): (Vec<_>, Vec<_>) = values
+        .iter()
+        .filter(|(location, _)| is_own(location))
+        .partition(|(location, value)| location.arguments.iter().chain([value]).all(|part| is_written(program, part)));
+    text.push_str("// the initial state, which is one of several\n");
+    for (location, _) in unsaid {
+        let _ = writeln!(text, "// {} has a value here that no scenario can say", location.show(program));
+    }
+    let update =
+        |(location, value): &(Location, Value)| format!("{} := {}", location.show(program), value.show(program));
+    let updates: Vec<String> = said.into_iter().map(update).collect();
+    match &updates[..] {
+        [] => {}
+        [only] => _ = writeln!(text, "exec {only};"),
+        several => _ = writeln!(text, "exec\n\tpar\n\t\t{}\n\tendpar;", several.join("\n\t\t")),
+    }
 }
 
 /// Ends a deadlock's scenario with a check that fails because the next step changes nothing.
