@@ -69,7 +69,7 @@ pub(crate) fn side_before(text: &str) -> Option<usize> {
 pub(crate) fn models<F: Files>(project: &mut Project<F>, own: &Analysis) -> [Option<Arc<Analysis>>; 2] {
     let named = paths(own.text());
     [ABSTRACT, CONCRETE].map(|side| {
-        let (_, path) = named.iter().find(|(of, ..)| *of == side).map(|(_, range, path)| (range, path))?;
+        let (.., path) = named.iter().find(|(of, ..)| *of == side)?;
         let target = project.target(own.source(), path)?;
         project.analysis(&target).ok()
     })

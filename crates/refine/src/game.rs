@@ -103,33 +103,26 @@ type Known = FxHashMap<NodeId, bool>;
 /// Whether a tree is won.
 fn wins(product: &Product<'_>, tree: NodeId, rules: &Rules, alive: Alive<'_>) -> bool {
     let mut known = Known::default();
-    let mut within = |node: NodeId| match &product.nodes[node as usize] {
-        Node::Answers(end) => is_answered(end, rules, alive),
-        _ => wins_within(product, node, rules, alive, &mut known),
-    };
-    match &product.nodes[tree as usize] {
-        Node::Begins(all) | Node::Steps(_, all) | Node::Inputs(all) => all.iter().all(|node| within(*node)),
-        _ => within(tree),
+    match product.nodes[tree as usize].all() {
+        // Nobody comes to it again.
+        Some(all) => all.iter().all(|node| wins_within(product, *node, rules, alive, &mut known)),
+        None => wins_within(product, tree, rules, alive, &mut known),
     }
-}
-
-fn is_answered(end: &Answers, rules: &Rules, alive: Alive<'_>) -> bool {
-    let answered = |(pair, m): &(PairId, u32)| rules.allow(end, *m) && alive(end, *pair, *m);
-    end.answers.iter().any(answered) || (rules.hopeful && end.unclear.is_some())
 }
 
 fn wins_within(product: &Product<'_>, node: NodeId, rules: &Rules, alive: Alive<'_>, known: &mut Known) -> bool {
-    if let Some(known) = known.get(&node) {
-        return *known;
-    }
     let won = match &product.nodes[node as usize] {
+        Node::Answers(end) => {
+            let answered = |(pair, m): &(PairId, u32)| rules.allow(end, *m) && alive(end, *pair, *m);
+            return end.answers.iter().any(answered) || (rules.hopeful && end.unclear.is_some());
+        }
+        Node::Fault => return false,
+        Node::Open(_) => return rules.hopeful,
+        _ if known.contains_key(&node) => return known[&node],
         Node::Begins(all) | Node::Steps(_, all) | Node::Inputs(all) => {
             all.iter().all(|node| wins_within(product, *node, rules, alive, known))
         }
         Node::Choice(ways) => ways.iter().any(|node| wins_within(product, *node, rules, alive, known)),
-        Node::Answers(end) => return is_answered(end, rules, alive),
-        Node::Fault => return false,
-        Node::Open(_) => return rules.hopeful,
     };
     known.insert(node, won);
     won
