@@ -27,7 +27,7 @@ pub(crate) fn is_unclear(product: &Product<'_>) -> bool {
     product.nodes.iter().any(|node| match node {
         Node::Answers(end) => end.unclear.is_some(),
         Node::Open(_) => true,
-        Node::Begins(_) | Node::Steps(..) | Node::Inputs(_) | Node::Choice(_) | Node::Fault => false,
+        Node::Begins(_) | Node::Steps(..) | Node::Inputs(_) | Node::Choice(_) | Node::Fault | Node::Endless => false,
     })
 }
 

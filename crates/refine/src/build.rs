@@ -9,6 +9,7 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use machine::{Limits, Machine};
+use model::nearest;
 use program::{DomainId, DomainKind, Expression, FunctionId, FunctionKind, Program, Slot, Term, TermList};
 use syntax::ast::{AstNode, TermFile};
 use syntax::{Diagnostic, FileId, Severity, SourceFile, Sources, Span};
@@ -108,7 +109,12 @@ impl Builder {
         if written.same.is_empty() && written.couples.is_empty() {
             self.same_by_default();
         }
-        for part in &written.same {
+        for (place, part) in written.same.iter().enumerate() {
+            if written.same[..place].iter().any(|other| other.text == part.text) {
+                let place = self.place(part);
+                self.fault(bad_coupling(place, format!("`{}` is the same twice", part.text)));
+                continue;
+            }
             self.same(part);
         }
         let mut looked_at = [!self.coupling.same.is_empty(); 2];
@@ -122,7 +128,7 @@ impl Builder {
         if let Some(part) = &written.segment
             && let Some(formula) = self.condition(part)
         {
-            self.concrete_only(&formula, part, "a segment ends", "the concrete machine's state alone");
+            self.concrete_only(&formula, "a segment ends", "the concrete machine's state alone");
             self.coupling.segment = Some(formula);
         }
         if let Some(part) = &written.variant {
@@ -185,7 +191,12 @@ impl Builder {
         for (found, side) in [(&here, ABSTRACT), (&there, CONCRETE)] {
             if found.is_empty() {
                 let message = format!("the {} machine has no function `{}`", SIDES[side], part.text);
-                return self.fault(bad_coupling(place, message));
+                let fault = bad_coupling(place, message);
+                let close = nearest(&part.text, names(&self.coupling.programs[side]));
+                return match close.map(|close| format!("did you mean `{close}`?")) {
+                    Some(help) => self.fault(fault.with_help(help)),
+                    None => self.fault(fault),
+                };
             }
         }
         let arity = |program: &Program, id: FunctionId| program.function(id).parameters.len();
@@ -329,8 +340,9 @@ impl Builder {
             plain(&mut fault.primary.text);
             fault.help.iter_mut().for_each(plain);
             if fault.id == "unknown-function" {
-                let help = "write `abstract.NAME` or `concrete.NAME`, with the name of a function of that machine";
-                fault.help = Some(help.to_string());
+                let Span { start, end, .. } = fault.primary.span;
+                let name = self.source.text.get(start as usize..end as usize).unwrap_or_default();
+                fault.help = Some(self.meant(name));
             }
             // The joint model is nowhere that a user could look.
             let file = self.coupling.file;
@@ -340,7 +352,7 @@ impl Builder {
         }
     }
 
-    fn term(&mut self, part: &Part, domain: Option<model::DomainId>) -> Option<Expression> {
+    fn term(&mut self, part: &Part, wanted: Option<(model::DomainId, &str)>) -> Option<Expression> {
         let file = self.coupling.file;
         let parsed = syntax::parse_term(file, &self.masked(part));
         if parsed.diagnostics.iter().any(|fault| fault.severity == Severity::Error) {
@@ -353,9 +365,9 @@ impl Builder {
             return None;
         };
         let joint = &mut self.coupling.joint;
-        let fragment = match domain {
+        let fragment = match wanted {
             None => joint.model.check_condition(file, &term, "a coupling"),
-            Some(domain) => joint.model.check_value(file, &term, domain, "the input"),
+            Some((domain, what)) => joint.model.check_value(file, &term, domain, what),
         };
         if fragment.diagnostics.iter().any(|fault| fault.severity == Severity::Error) {
             self.told(fragment.diagnostics);
@@ -367,6 +379,28 @@ impl Builder {
                 self.told(faults);
                 None
             }
+        }
+    }
+
+    /// What a name that is no function may mean.
+    fn meant(&self, written: &str) -> String {
+        let programs = &self.coupling.programs;
+        for (side, word) in SIDES.iter().enumerate() {
+            let Some(name) = written.strip_prefix(word).and_then(|rest| rest.strip_prefix('.')) else { continue };
+            return match nearest(name, names(&programs[side])) {
+                Some(close) => format!("did you mean `{word}.{close}`?"),
+                None => format!("write `{word}.NAME`, with the name of a function of that machine"),
+            };
+        }
+        let having: Vec<String> = SIDES
+            .iter()
+            .enumerate()
+            .filter(|(side, _)| names(&programs[*side]).any(|name| name == written))
+            .map(|(_, word)| format!("`{word}.{written}`"))
+            .collect();
+        match having[..] {
+            [] => "write `abstract.NAME` or `concrete.NAME`, with the name of a function of that machine".to_string(),
+            _ => format!("say of which machine: {}", having.join(" or ")),
         }
     }
 
@@ -386,7 +420,7 @@ impl Builder {
         let program = &self.coupling.joint.program;
         let integer = program.domains.iter().position(|domain| domain.kind == DomainKind::Basic(model::Basic::Integer));
         let Some(integer) = integer else { return };
-        let Some(formula) = self.term(part, Some(DomainId(integer as u32))) else { return };
+        let Some(formula) = self.term(part, Some((DomainId(integer as u32), "the variant"))) else { return };
         if self.over_states(&formula, part) {
             self.coupling.variant = Some((part.text.clone(), formula));
         }
@@ -402,7 +436,7 @@ impl Builder {
                     let name = program.function(function).name.clone();
                     let message =
                         format!("{}.{name} is an input, or depends on one; a coupling relates states", SIDES[side]);
-                    let place = self.place(part);
+                    let place = self.read_at(formula, side, function).unwrap_or_else(|| self.place(part));
                     self.fault(bad_coupling(place, message));
                     return false;
                 }
@@ -411,24 +445,33 @@ impl Builder {
         true
     }
 
-    fn concrete_only(&mut self, formula: &Expression, part: &Part, what: &str, by: &str) {
-        if !self.functions_of(formula, ABSTRACT).is_empty() {
-            let place = self.place(part);
+    fn concrete_only(&mut self, formula: &Expression, what: &str, by: &str) {
+        if let Some((.., place)) = self.reads(formula).into_iter().find(|(side, ..)| *side == ABSTRACT) {
             self.fault(bad_coupling(place, format!("{what} by {by}")));
         }
     }
 
     /// The functions of a side that a term of the joint model reads.
     fn functions_of(&self, formula: &Expression, side: usize) -> BTreeSet<FunctionId> {
+        self.reads(formula).into_iter().filter(|(there, ..)| *there == side).map(|(_, function, _)| function).collect()
+    }
+
+    /// Where a term of the joint model reads a function of a side.
+    fn read_at(&self, formula: &Expression, side: usize, function: FunctionId) -> Option<Span> {
+        let mut reads = self.reads(formula).into_iter();
+        reads.find(|(there, read, _)| (*there, *read) == (side, function)).map(|(.., place)| place)
+    }
+
+    /// What a term of the joint model reads of each side, and where.
+    fn reads(&self, formula: &Expression) -> Vec<(usize, FunctionId, Span)> {
         let Joint { program, of, .. } = &self.coupling.joint;
         let mut open = vec![formula.body];
-        let mut found = BTreeSet::new();
+        let mut found = Vec::new();
         while let Some(id) = open.pop() {
             if let Term::Read { function, .. } = program.term(id)
-                && let Some((there, function)) = of.get(function)
-                && *there == side
+                && let Some((side, function)) = of.get(function)
             {
-                found.insert(*function);
+                found.push((*side, *function, program.term_span(id)));
             }
             program.each_child_of_term(id, &mut |child| open.push(child));
         }
@@ -439,6 +482,11 @@ impl Builder {
 /// The beginning of a text that is too long for a message.
 fn shortened(words: &str) -> String {
     words.chars().take(WORDS).chain(['…']).collect()
+}
+
+/// The names of a machine's own functions.
+fn names(program: &Program) -> impl Iterator<Item = &str> {
+    program.functions.iter().filter(|function| !function.library).map(|function| &*function.name)
 }
 
 /// Whether a function is part of the state between steps.

@@ -39,7 +39,7 @@ impl Computed {
         for (index, Fair { term, .. }) in coupling.fair.iter().enumerate().filter(|(_, fair)| fair.in_step) {
             match term {
                 FairTerm::Said(_, formula) => terms.push((number_of_fair(index), formula.clone())),
-                FairTerm::Own(formula) => own.push((number_of_fair(index), formula.clone())),
+                FairTerm::Own(justice) => own.push((number_of_fair(index), justice.formula.clone())),
             }
         }
         if terms.is_empty() && own.is_empty() {

@@ -6,12 +6,14 @@
 
 use std::sync::Arc;
 
-use program::{Expression, FunctionId, Program};
+use program::{Expression, FunctionId, Program, Property};
 use rustc_hash::FxHashMap;
 use syntax::{Diagnostic, FileId, Sources, Span};
 
+use crate::CONCRETE;
 use crate::diagram::Diagrams;
 use crate::joint::Joint;
+use crate::report::{Assumed, From};
 
 /// A part of the coupling relation.
 #[derive(Debug, Clone)]
@@ -41,7 +43,7 @@ pub(crate) enum FairTerm {
     /// A term of the joint model over the concrete machine, and its text in the coupling.
     Said(String, Expression),
     /// A `JUSTICE` of the concrete model.
-    Own(Expression),
+    Own(Property),
 }
 
 /// From this number on conditions of fairness are numbered as if they were inputs of the abstract machine.
@@ -125,12 +127,13 @@ impl Coupling {
         self.variant.as_ref().map(|(text, _)| in_a_line(text))
     }
 
-    /// The conditions of fairness that the coupling says, as a user would write them.
-    pub(crate) fn fair(&self) -> impl Iterator<Item = String> {
-        self.fair.iter().filter_map(|fair| match &fair.term {
-            FairTerm::Said(text, _) => Some(in_a_line(text)),
-            FairTerm::Own(_) => None,
-        })
+    /// A condition of fairness as what is assumed.
+    pub(crate) fn fairness(&self, fair: usize) -> Assumed {
+        let (name, span) = match &self.fair[fair].term {
+            FairTerm::Said(text, _) => (format!("again and again: {}", in_a_line(text)), start(self.file)),
+            FairTerm::Own(justice) => (justice.name.clone(), justice.span),
+        };
+        Assumed { side: CONCRETE, name, from: From::Text(span) }
     }
 
     /// How many conjuncts there are.

@@ -10,6 +10,7 @@ use machine::{Location, Show, Value};
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::behind::Broken;
+use crate::circles::Lasso;
 use crate::coupling::is_fair;
 use crate::game::{Alive, Lost, Solution};
 use crate::product::{Answers, Node, NodeId, PairId, Product};
@@ -66,6 +67,8 @@ pub enum Ended {
     Fault,
     /// The concrete machine goes on for ever from the diagram of this index, and the abstract one makes no step.
     Waits(usize),
+    /// The concrete machine's segment never ends: behind its last step it goes on as from the step of this index.
+    Endless(usize),
 }
 
 /// Why the concrete machine does not refine the abstract one.
@@ -103,7 +106,7 @@ fn survival(
             let rank = |(pair, _): &(PairId, u32)| solution.lost[*pair as usize].map_or(u32::MAX, |lost| lost.rank);
             Some(end.answers.iter().map(rank).max().unwrap_or(0))
         }
-        Node::Fault | Node::Open(_) => Some(0),
+        Node::Fault | Node::Endless | Node::Open(_) => Some(0),
     };
     known.insert(node, survives);
     survives
@@ -115,10 +118,12 @@ struct Play<'p> {
     start: Option<usize>,
     steps: Vec<(StateId, Move)>,
     end: Option<&'p Answers>,
+    /// The segment never ends.
+    is_endless: bool,
 }
 
 fn play<'p>(product: &'p Product<'_>, solution: &Solution, node: NodeId, alive: Alive<'_>) -> Play<'p> {
-    let mut play = Play { start: None, steps: Vec::new(), end: None };
+    let mut play = Play { start: None, steps: Vec::new(), end: None, is_endless: false };
     let mut at = node;
     let mut known = FxHashMap::default();
     loop {
@@ -146,7 +151,10 @@ fn play<'p>(product: &'p Product<'_>, solution: &Solution, node: NodeId, alive: 
                 play.end = Some(end);
                 return play;
             }
-            Node::Fault | Node::Open(_) => return play,
+            end @ (Node::Fault | Node::Endless | Node::Open(_)) => {
+                play.is_endless = matches!(end, Node::Endless);
+                return play;
+            }
         }
     }
 }
@@ -198,10 +206,19 @@ pub(crate) fn refutation(product: &mut Product<'_>, solution: &Solution) -> Refu
             Some(pair) => product.trees[pair as usize].unwrap_or(product.root),
         };
         let play = play(product, solution, node, &survives);
-        let (start, steps, end) = (play.start, play.steps, play.end.cloned());
+        let (start, steps, end, is_endless) = (play.start, play.steps, play.end.cloned(), play.is_endless);
         if let Some(start) = start {
             let (_, state, start) = telling.product.begun[start];
             telling.begin(CONCRETE, state, start);
+        }
+        if let (true, Some(at)) = (is_endless, at) {
+            let (_, state) = telling.product.pairs[at as usize];
+            if let Some(Lasso { way, circle }) = telling.product.lasso(state) {
+                way.iter().chain(&circle).for_each(|(from, made)| telling.step(CONCRETE, *from, made));
+                let Telling { runs, segments, .. } = telling;
+                let again = runs[CONCRETE].steps.len() - circle.len();
+                return Refutation { runs, segments, ended: Ended::Endless(again) };
+            }
         }
         for (from, made) in &steps {
             telling.step(CONCRETE, *from, made);
@@ -234,7 +251,7 @@ pub(crate) fn refutation(product: &mut Product<'_>, solution: &Solution) -> Refu
                 telling.segments.push(Segment { m: m as usize, n: steps.len() });
             }
         }
-        if m == 0 && end.n > 0 && !solution.turns.is_empty() && telling.product.meets(&end, fair) {
+        if m == 0 && end.n > 0 && !solution.turns.is_empty() && solution.meets(telling.product, &end, fair) {
             fair = (fair + 1) % solution.turns.len();
         }
         if let Some(turn) = visited.iter().position(|other| *other == (pair, fair)) {
@@ -382,7 +399,7 @@ pub(crate) fn used(product: &Product<'_>, solution: &Solution) -> BTreeMap<(u32,
                         trees.extend(product.trees[*pair as usize]);
                     }
                 }
-                Node::Fault | Node::Open(_) => {}
+                Node::Fault | Node::Endless | Node::Open(_) => {}
             }
         }
     }

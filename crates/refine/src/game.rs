@@ -29,8 +29,6 @@ pub(crate) struct Rules {
     pub hopeful: bool,
     /// The abstract machine may make no step for ever.
     pub waiting: bool,
-    /// It may if some condition of fairness is not met again and again.
-    pub fair: bool,
     /// The fewest and the most abstract steps of a diagram, and the most concrete ones; besides what the coupling allows.
     pub least_m: u32,
     pub most_m: u32,
@@ -41,7 +39,7 @@ impl Rules {
     /// Those of the coupling.
     pub fn of(product: &Product<'_>, hopeful: bool) -> Rules {
         let waiting = product.judge.coupling.waiting;
-        Rules { hopeful, waiting, fair: true, least_m: 0, most_m: u32::MAX, most_n: u32::MAX }
+        Rules { hopeful, waiting, least_m: 0, most_m: u32::MAX, most_n: u32::MAX }
     }
 
     fn allow(&self, end: &Answers, m: u32) -> bool {
@@ -54,9 +52,11 @@ impl Rules {
 pub(crate) struct Solution {
     /// By pair.
     pub lost: Vec<Option<Lost>>,
-    /// By condition of fairness and pair: of pairs that are lost since the abstract machine waits for ever, how soon the concrete
+    /// By place of a condition of fairness and pair: of pairs that are lost since the abstract machine waits for ever, how soon the concrete
     /// machine can meet the condition, in an order without a unit.
     pub turns: Vec<Vec<u32>>,
+    /// The conditions of fairness that count, by their place in `turns`.
+    pub fair: Vec<usize>,
     /// Whether each initial state is answered.
     pub won: bool,
     /// What was played by.
@@ -81,7 +81,12 @@ impl Solution {
         let Some(turns) = self.turns.get(fair).filter(|_| m == 0) else { return false };
         let [before, after] = [from, to].map(|pair| self.lost[pair as usize]);
         let stays = before.is_some_and(|lost| lost.waits) && before == after;
-        stays && !product.meets(end, fair) && turns[to as usize] >= turns[from as usize]
+        stays && !self.meets(product, end, fair) && turns[to as usize] >= turns[from as usize]
+    }
+
+    /// Whether a condition of fairness, by its place, is met in a diagram.
+    pub fn meets(&self, product: &Product<'_>, end: &Answers, fair: usize) -> bool {
+        product.meets(end, self.fair[fair])
     }
 
     /// Whether a pair was still alive when this one was lost.
@@ -116,7 +121,7 @@ fn wins_within(product: &Product<'_>, node: NodeId, rules: &Rules, alive: Alive<
             let answered = |(pair, m): &(PairId, u32)| rules.allow(end, *m) && alive(end, *pair, *m);
             return end.answers.iter().any(answered) || (rules.hopeful && end.unclear.is_some());
         }
-        Node::Fault => return false,
+        Node::Fault | Node::Endless => return false,
         Node::Open(_) => return rules.hopeful,
         _ if known.contains_key(&node) => return known[&node],
         Node::Begins(all) | Node::Steps(_, all) | Node::Inputs(all) => {
@@ -188,9 +193,14 @@ impl Parents {
 
 /// Decides all pairs.
 pub(crate) fn solve(product: &Product<'_>, parents: &Parents, rules: Rules) -> Solution {
+    solve_fairly(product, parents, rules, (0..product.fair()).collect())
+}
+
+/// Decides all pairs, where of the conditions of fairness only these count.
+pub(crate) fn solve_fairly(product: &Product<'_>, parents: &Parents, rules: Rules, fair: Vec<usize>) -> Solution {
     let count = product.pairs.len();
     let mut lost: Vec<Option<Lost>> = vec![None; count];
-    let mut turns = vec![vec![0; count]; if rules.fair { product.fair() } else { 0 }];
+    let mut turns = vec![vec![0; count]; fair.len()];
     let mut rank = 0;
     let mut queue: VecDeque<PairId> = (0..count as PairId).collect();
     let mut queued = vec![true; count];
@@ -215,7 +225,7 @@ pub(crate) fn solve(product: &Product<'_>, parents: &Parents, rules: Rules) -> S
             }
         }
         let waiting = match parents.waits && !rules.waiting {
-            true => Waiting::new(product, &rules, &lost, parents).pairs(&mut turns),
+            true => Waiting::new(product, &rules, &lost, parents).pairs(&fair, &mut turns),
             false => Vec::new(),
         };
         if waiting.is_empty() {
@@ -232,7 +242,7 @@ pub(crate) fn solve(product: &Product<'_>, parents: &Parents, rules: Rules) -> S
         }
     }
     let won = wins(product, product.root, &rules, &|_, pair, _| lost[pair as usize].is_none());
-    Solution { lost, turns, won, rules }
+    Solution { lost, turns, fair, won, rules }
 }
 
 /// Which pairs are lost since the abstract machine can only wait for ever.
@@ -257,13 +267,13 @@ impl<'w, 'c> Waiting<'w, 'c> {
 
     /// The pairs from which the concrete machine can go on for ever, and meet each condition of fairness again and again, while the
     /// abstract one makes no step. `turns` receives of each how soon.
-    fn pairs(mut self, turns: &mut [Vec<u32>]) -> Vec<PairId> {
+    fn pairs(mut self, fair: &[usize], turns: &mut [Vec<u32>]) -> Vec<PairId> {
         let mut grown = self.all_open();
         loop {
             self.advance(grown);
             grown = Vec::new();
-            for (fair, turns) in turns.iter_mut().enumerate() {
-                let kept = self.unfair(fair, turns);
+            for (fair, turns) in fair.iter().zip(turns.iter_mut()) {
+                let kept = self.unfair(*fair, turns);
                 kept.iter().for_each(|pair| self.moves[*pair as usize] = true);
                 grown.extend(kept.iter().flat_map(|pair| self.parents.get(*pair)));
             }

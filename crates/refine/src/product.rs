@@ -17,6 +17,7 @@ use program::FunctionId;
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::coupling::{FairTerm, number_of_fair};
+use crate::endless::Endless;
 use crate::judge::Judge;
 use crate::readings::{Readings, Reads, ReadsId};
 use crate::side::{Goal, Inputs, LabelId, Move, Side, StateId, Stopped, Unmade};
@@ -58,6 +59,8 @@ pub(crate) enum Node {
     Answers(Answers),
     /// The concrete machine cannot make its step.
     Fault,
+    /// It can go on for ever, and the segment does not end.
+    Endless,
     /// Not known.
     Open(Unclear),
 }
@@ -67,7 +70,7 @@ impl Node {
     pub fn all(&self) -> Option<&[NodeId]> {
         match self {
             Node::Begins(nodes) | Node::Steps(_, nodes) | Node::Inputs(nodes) => Some(nodes),
-            Node::Choice(_) | Node::Answers(_) | Node::Fault | Node::Open(_) => None,
+            Node::Choice(_) | Node::Answers(_) | Node::Fault | Node::Endless | Node::Open(_) => None,
         }
     }
 
@@ -136,6 +139,7 @@ pub(crate) struct Product<'c> {
     pub begun: Vec<(LabelId, StateId, Start)>,
     /// By condition of fairness: what stands in the label of a step in which it is true.
     met: Vec<(u32, u32)>,
+    pub endless: Endless,
 }
 
 /// A state, the place of the one before it, and the step between them.
@@ -168,6 +172,7 @@ impl<'c> Product<'c> {
             initial,
             begun,
             met,
+            endless: Endless::default(),
         };
         let mut nodes = Vec::new();
         for (label, state, _) in product.begun.clone() {
@@ -224,7 +229,7 @@ impl<'c> Product<'c> {
         for (index, fair) in coupling.fair.iter().enumerate().filter(|(_, fair)| !fair.in_step) {
             let value = match &fair.term {
                 FairTerm::Said(_, formula) => self.judge.evaluate(&mut self.sides, formula, [0, state]).0.ok(),
-                FairTerm::Own(formula) => self.sides[CONCRETE].evaluate(formula, state).ok(),
+                FairTerm::Own(justice) => self.sides[CONCRETE].evaluate(&justice.formula, state).ok(),
             };
             // What cannot be evaluated is not true.
             let is_met = Value::Boolean(value == Some(Value::Boolean(true)));
@@ -339,6 +344,7 @@ impl<'c> Product<'c> {
                 self.end(Some(from), state, reads, n, &runs, goes_on.then_some(memo))
             }
             None if goes_on => self.go_on(from, state, reads, n, memo),
+            None if !ends && self.never_ends(state)? => Ok(self.node(Node::Endless)),
             None if !ends => Ok(self.node(Node::Open(Unclear::Long))),
             // A segment ends where no diagram does.
             None => self.end(Some(from), state, reads, n, &AbstractRuns::default(), None),

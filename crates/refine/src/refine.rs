@@ -12,10 +12,10 @@ use program::PropertyKind;
 
 use crate::behind::{self, is_unclear};
 use crate::bounded::of_proof;
-use crate::coupling::{Coupling, start};
-use crate::evidence::{self, Ended};
+use crate::coupling::Coupling;
+use crate::evidence::{self, Ended, Refutation};
 use crate::fair::has_fair_run;
-use crate::game::{Parents, Rules, Solution, solve};
+use crate::game::{Parents, Rules, Solution, solve, solve_fairly};
 use crate::judge::Judge;
 use crate::limited::with_shared_inputs;
 use crate::options::Options;
@@ -137,7 +137,9 @@ fn attempt(
         side.ignore_interrupts();
     }
     let is_complete = whys.0.is_empty() && !is_lost;
-    let (mut diagrams, mut needs_fairness) = (Default::default(), product.fair() > 0);
+    let mut diagrams = Default::default();
+    // The conditions of fairness that the verdict rests on.
+    let mut fair: Vec<usize> = (0..product.fair()).collect();
     let said = says(&mut product, is_complete);
     let parents = Parents::of(&product);
     let hopeful = solve(&product, &parents, Rules::of(&product, true));
@@ -170,10 +172,10 @@ fn attempt(
             bounded.iter().for_each(|why| whys.add(*why));
             if sure.won {
                 diagrams = evidence::used(&product, &sure);
-                needs_fairness = needs_fairness && !solve(&product, &parents, Rules { fair: false, ..sure.rules }).won;
+                fair = needed(&product, &parents, sure.rules);
             }
             match (sure.won, said) {
-                (true, _) if needs_fairness && !has_fair_run(&product) => Verdict::Vacuous(Vacuous::NoFairRun),
+                (true, _) if !fair.is_empty() && !has_fair_run(&product, &fair) => Verdict::Vacuous(Vacuous::NoFairRun),
                 (true, _) if !bounded.is_empty() => Verdict::Unknown(bounded),
                 (true, Says::Perhaps(pairs)) => Verdict::Unknown(vec![Why::Undistinguished(pairs)]),
                 (true, _) => Verdict::Refines,
@@ -184,17 +186,17 @@ fn attempt(
             }
         }
     };
-    if let Verdict::DoesNot(refutation) = &verdict {
+    let goes_on = |refutation: &Refutation| matches!(refutation.ended, Ended::Waits(_) | Ended::Endless(_));
+    match &verdict {
         // What cannot be answered is lost, whatever is fair.
-        needs_fairness &= matches!(refutation.ended, Ended::Waits(_));
+        Verdict::DoesNot(refutation) if !goes_on(refutation) => fair.clear(),
+        Verdict::Vacuous(vacuous) if *vacuous != Vacuous::NoFairRun => fair.clear(),
+        Verdict::DoesNot(_) | Verdict::Vacuous(_) | Verdict::Refines | Verdict::Unknown(_) => {}
     }
     let mut assumed = Vec::new();
     for side in [ABSTRACT, CONCRETE] {
         let properties = &coupling.programs[side].properties;
-        let is_assumed = |kind: PropertyKind| {
-            kind == PropertyKind::Invar || (kind == PropertyKind::Justice && side == CONCRETE && needs_fairness)
-        };
-        let said = properties.iter().filter(|property| is_assumed(property.kind));
+        let said = properties.iter().filter(|property| property.kind == PropertyKind::Invar);
         assumed.extend(said.map(|property| Assumed {
             side,
             name: property.name.clone(),
@@ -209,13 +211,7 @@ fn attempt(
             }
         }
     }
-    if needs_fairness {
-        assumed.extend(coupling.fair().map(|text| Assumed {
-            side: CONCRETE,
-            name: format!("again and again: {text}"),
-            from: From::Text(start(coupling.file)),
-        }));
-    }
+    assumed.extend(fair.into_iter().map(|fair| coupling.fairness(fair)));
     let idle = product.sides[ABSTRACT].steps.1 == 0;
     let properties = match verdict {
         Verdict::Refines => preserved(&mut product, &parents),
@@ -328,6 +324,23 @@ fn searched<'c>(
     Ok(Searched { whys, is_lost, next })
 }
 
+/// Conditions of fairness of which none can be left out, by which a game is won that is won by all. What
+/// the coupling says is left out before what the model says itself.
+fn needed(product: &Product<'_>, parents: &Parents, rules: Rules) -> Vec<usize> {
+    let mut needed: Vec<usize> = (0..product.fair()).collect();
+    if needed.len() > 1 && solve_fairly(product, parents, rules, Vec::new()).won {
+        return Vec::new();
+    }
+    // What the coupling says comes first.
+    for fair in 0..product.fair() {
+        let others: Vec<usize> = needed.iter().copied().filter(|other| *other != fair).collect();
+        if solve_fairly(product, parents, rules, others.clone()).won {
+            needed = others;
+        }
+    }
+    needed
+}
+
 /// What was not clear anywhere that matters.
 fn unclear(product: &Product<'_>, whys: &mut Whys) {
     let mut seen = vec![false; product.nodes.len()];
@@ -342,7 +355,7 @@ fn unclear(product: &Product<'_>, whys: &mut Whys) {
         let unclear = match node {
             Node::Answers(end) => end.unclear,
             Node::Open(unclear) => Some(*unclear),
-            Node::Begins(_) | Node::Steps(..) | Node::Inputs(_) | Node::Choice(_) | Node::Fault => None,
+            Node::Begins(_) | Node::Steps(..) | Node::Inputs(_) | Node::Choice(_) | Node::Fault | Node::Endless => None,
         };
         if let Some(unclear) = unclear {
             whys.add(why_of(product, unclear));

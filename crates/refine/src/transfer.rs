@@ -8,7 +8,8 @@ use program::PropertyKind;
 
 use crate::CONCRETE;
 use crate::coupling::Coupling;
-use crate::game::{Parents, Rules, solve};
+use crate::coupling::FairTerm;
+use crate::game::{Parents, Rules, solve, solve_fairly};
 use crate::product::Product;
 
 /// Which concrete states correspond to abstract ones.
@@ -68,15 +69,18 @@ impl Transfer {
         };
         let each = Rules { most_m: 1, ..rules };
         // Formulas of the concrete model are about the runs that are fair by its own words, not by those of the coupling.
-        let live = Rules { waiting: false, fair: product.judge.coupling.fair().next().is_none(), ..each };
+        let conditions = product.judge.coupling.fair.iter().enumerate();
+        let own = conditions.filter(|(_, fair)| matches!(fair.term, FairTerm::Own(_)));
+        let own: Vec<usize> = own.map(|(place, _)| place).collect();
+        let live = Rules { waiting: false, ..each };
         let exact = Rules { least_m: 1, ..live };
         // A state without a step is one in which a run stays for ever; the proof says nothing of that.
         let goes_on = !product.sides[CONCRETE].has_dead_end();
         let begun: Vec<u32> = product.begun.iter().map(|(_, state, _)| *state).collect();
         let begins_inside = begun.into_iter().any(|state| !product.judge.ends(&mut product.sides, state));
         let each_holds = is_won(product, each);
-        let live_holds = each_holds && goes_on && is_won(product, live);
-        let exact_holds = live_holds && ends == Ends::Every && is_won(product, exact);
+        let live_holds = each_holds && goes_on && solve_fairly(product, parents, live, own.clone()).won;
+        let exact_holds = live_holds && ends == Ends::Every && solve_fairly(product, parents, exact, own).won;
         Transfer { ends, begins_inside, each: each_holds, live: live_holds, exact: exact_holds }
     }
 }

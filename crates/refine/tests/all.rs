@@ -8,6 +8,7 @@ mod induction;
 mod invariants;
 mod naive;
 mod preserved;
+mod segments;
 mod small;
 mod spec;
 mod stuck;

@@ -4,7 +4,7 @@ use refine::{Coupling, IDS, Options, format, refine};
 use syntax::{FileId, SourceFile};
 use testkit::Page;
 
-use crate::small::example;
+use crate::small::{example, machine};
 
 #[test]
 fn every_kind_of_fault_has_a_page() {
@@ -50,4 +50,44 @@ fn broken_couplings_have_faults_at_their_places() {
             check(&format!("{}{}", &text[..at], &text[(at + 5).min(text.len())..]));
         }
     }
+}
+
+/// What a name in a coupling may mean is told, and a fault stands at the name alone.
+#[test]
+fn names_that_are_not_known_have_their_neighbours() {
+    let of = |function: &str| {
+        let signature = format!("monitored go: Boolean controlled held: Boolean controlled {function}: Boolean");
+        let rule = format!("main rule r_Main = if go then par held := not held {function} := held endpar endif");
+        machine(&signature, &rule, &format!("function held = false function {function} = false"))
+    };
+    let (one, other) = (of("open"), of("opens"));
+    let check = |text: &str, at: &str, says: &str, help: &str| {
+        let coupling =
+            Coupling::new([&one, &other], Some(SourceFile::new("c.refine", text)), &machine::Limits::default());
+        let faulty = coupling.err().unwrap_or_else(|| panic!("{text}"));
+        let fault = &faulty.faults[0];
+        assert!(fault.message.contains(says), "{text}: {}", fault.message);
+        assert_eq!(
+            (&text[fault.primary.span.range()], fault.help.as_deref().unwrap_or_default()),
+            (at, help),
+            "{text}"
+        );
+    };
+    check("same hold;", "hold", "the abstract machine has no function", "did you mean `held`?");
+    check("same open;", "open", "the concrete machine has no function", "did you mean `opens`?");
+    check("same held, held;", "held", "the same twice", "");
+    check("couple held;", "held", "no function `held`", "say of which machine: `abstract.held` or `concrete.held`");
+    check("couple opens;", "opens", "no function `opens`", "say of which machine: `concrete.opens`");
+    check("couple concrete.hold;", "concrete.hold", "no function", "did you mean `concrete.held`?");
+    let any = "write `concrete.NAME`, with the name of a function of that machine";
+    check("couple concrete.lamp = true;", "concrete.lamp", "no function", any);
+    check("couple abstract.held = concrete.go;", "concrete.go", "is an input", "");
+    check(
+        "same held; segment concrete.held and abstract.open;",
+        "abstract.open",
+        "the concrete machine's state alone",
+        "",
+    );
+    let integer = "give a term of domain Integer";
+    check("same held; variant concrete.held;", "concrete.held", "the variant takes Integer", integer);
 }

@@ -183,7 +183,7 @@ fn steps(graph: &Graph, from: State, inputs: &[bool], most: usize) -> BTreeSet<S
 pub type Mapped = fn(bool, State) -> bool;
 
 /// A condition of fairness on a step of the concrete machine: by its input and the state that it is made in.
-type Fair = fn(bool, State) -> bool;
+pub type Fair = fn(bool, State) -> bool;
 
 /// Whether the concrete graph is simulated: one step, or one or two, by at most as many, with finitely many waits between steps; or with
 /// as many as you like of which some condition of fairness is true in finitely many steps alone.
@@ -243,10 +243,10 @@ fn simulated(one: &(State, Graph), other: &(State, Graph), most: usize, mapped: 
     }
 }
 
-type Pairs = BTreeSet<(State, State)>;
+pub type Pairs = BTreeSet<(State, State)>;
 
 /// Whether some round in a graph meets all conditions, wherever it begins.
-fn has_fair_round(graph: &Graph, fair: &[Fair]) -> bool {
+pub fn has_fair_round(graph: &Graph, fair: &[Fair]) -> bool {
     let states: BTreeSet<State> = graph.keys().map(|(state, _)| *state).collect();
     states.into_iter().any(|first| {
         let mut open = vec![(first, vec![false; fair.len()])];
@@ -268,8 +268,13 @@ fn has_fair_round(graph: &Graph, fair: &[Fair]) -> bool {
     })
 }
 
+/// The conditions of fairness in a coupling.
+fn texts_of(coupling: &str) -> impl Iterator<Item = &str> {
+    coupling.split(';').filter_map(|statement| statement.trim().strip_prefix("fair "))
+}
+
 /// Makes a run again; returns the states that it goes through.
-fn again(program: &Arc<Program>, run: &refine::Run) -> Vec<State> {
+pub fn again(program: &Arc<Program>, run: &refine::Run) -> Vec<State> {
     struct Given<'t>(&'t explore::Told, usize);
     impl Environment for Given<'_> {
         fn monitored(&mut self, _: &Program, at: LocationRef<'_>, _: DomainId) -> Result<Value, String> {
@@ -410,11 +415,23 @@ fn agree(most: usize, coupling: &str, mapped: Mapped, fair: &[Fair]) {
         match found.verdict {
             Verdict::Refines => {
                 assert!(expected, "{}", of("the judge says no"));
-                let by_itself = simulated(&graph_one, &graph_other, most, mapped, &[]);
-                assert!(by_itself || has_fair_round(&graph_other.1, fair), "{}", of("no run is fair"));
-                by_fairness += u64::from(!by_itself);
-                let assumes = found.assumed.iter().any(|assumed| assumed.name.starts_with("again and again: "));
-                assert_eq!(assumes, !by_itself, "{}", of("fairness is assumed where it is needed"));
+                let by = |fair: &[Fair]| simulated(&graph_one, &graph_other, most, mapped, fair);
+                let needed: Vec<Fair> = texts_of(coupling)
+                    .zip(fair)
+                    .filter(|(text, _)| {
+                        let told = format!("again and again: {text}");
+                        found.assumed.iter().any(|assumed| assumed.name == told)
+                    })
+                    .map(|(_, fair)| *fair)
+                    .collect();
+                assert_eq!(needed.len(), found.assumed.len());
+                assert!(by(&needed), "{}", of("more fairness is needed"));
+                for one in 0..needed.len() {
+                    let others = [&needed[..one], &needed[one + 1..]].concat();
+                    assert!(!by(&others), "{}", of("less fairness is needed"));
+                }
+                assert!(needed.is_empty() || has_fair_round(&graph_other.1, &needed), "{}", of("no run is fair"));
+                by_fairness += u64::from(!needed.is_empty());
                 counts[0] += 1;
             }
             Verdict::DoesNot(refutation) => {
@@ -445,7 +462,7 @@ fn agree(most: usize, coupling: &str, mapped: Mapped, fair: &[Fair]) {
                         let met = |fair: &Fair| round.clone().any(|(step, state)| fair(go(step), *state));
                         assert!(fair.iter().all(met), "{}", of("the round is not fair"));
                     }
-                    Ended::Fault => panic!("{}", of("there is no fault")),
+                    Ended::Fault | Ended::Endless(_) => panic!("{}", of("there is no fault, and no segment")),
                 }
             }
             Verdict::Vacuous(Vacuous::NoFairRun) => {

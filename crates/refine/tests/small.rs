@@ -453,8 +453,43 @@ fn a_segment_that_no_diagram_has_is_refuted() {
     let one = counter("n := (n + 1) mod 4");
     let refutation = refuted(report(&one, &one, Some("same n; segment true; diagrams 1:2;")));
     assert!(matches!(refutation.ended, Ended::Unmatched { .. }), "{:?}", refutation.ended);
-    let found = report(&one, &one, Some("same n; segment concrete.n = 7;"));
+}
+
+#[test]
+fn a_segment_that_never_ends_is_refuted_by_its_circle() {
+    let one = counter("n := (n + 1) mod 4");
+    let refutation = refuted(report(&one, &one, Some("same n; segment concrete.n = 7;")));
+    assert_eq!((refutation.ended, refutation.runs[CONCRETE].steps.len()), (Ended::Endless(0), 4));
+    // A long one may end in a longer diagram.
+    let two = machine(COUNTER, "domain N = {0:40}\nmain rule r_Main = n := (n + 1) mod 41", "function n = 0");
+    let found = report(&two, &two, Some("same n; segment concrete.n = 0;"));
     assert_eq!(found.verdict, Verdict::Unknown(vec![refine::Why::Long(16)]));
+    // Where it ends in each fair run, and maybe late, it is not known.
+    let waits = |fair: &str| {
+        let other = lamp("if pressed then on := not on endif");
+        let coupling = format!("same on; segment concrete.on; diagrams 0..1:1..3; {fair}");
+        report(&lamp("choose $x in {true, false} with true do on := $x"), &other, Some(&coupling))
+    };
+    assert_eq!(refuted(waits("")).ended, Ended::Endless(0));
+    assert!(matches!(waits("fair concrete.on;").verdict, Verdict::Unknown(_)));
+    let of = waits("fair concrete.pressed or not concrete.on;");
+    assert_eq!(of.assumed.len(), 1, "the round meets what is fair");
+    assert_eq!(refuted(of).ended, Ended::Endless(0));
+}
+
+/// Of several conditions those are told that are needed; of two that are enough each, that of the model.
+#[test]
+fn only_the_fairness_that_is_needed_is_assumed() {
+    let one = door("open := not open", "");
+    let assumed = |said: &str, coupling: &str| -> Vec<String> {
+        let found = report(&one, &door("if arrived then open := not open endif", said), Some(coupling));
+        assert_eq!(found.verdict, Verdict::Refines, "{coupling}");
+        found.assumed.into_iter().map(|assumed| assumed.name).collect()
+    };
+    let arrived = "again and again: concrete.arrived";
+    assert_eq!(assumed("", "same open; fair concrete.open or not concrete.open; fair concrete.arrived;"), [arrived]);
+    assert_eq!(assumed("JUSTICE open", "same open; fair concrete.arrived;"), [arrived]);
+    assert_eq!(assumed("JUSTICE arrived", "same open; fair concrete.arrived;"), ["JUSTICE at line 8"]);
 }
 
 #[test]

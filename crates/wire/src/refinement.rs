@@ -101,11 +101,14 @@ struct RunPair {
     concrete: Vec<RunStep>,
     /// The diagrams of the two runs; concrete steps behind them are those that nothing matches.
     diagrams: Vec<DiagramLine>,
-    /// `unmatched`, `fault` or `waits`.
+    /// `unmatched`, `fault`, `waits` or `endless`: a segment of the concrete run never ends.
     ended: &'static str,
     /// The diagram, from 0, to which the concrete run returns for ever.
     #[serde(skip_serializing_if = "Option::is_none")]
     again_from: Option<usize>,
+    /// The concrete step, from 0, from which a segment goes on for ever.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    again_from_step: Option<usize>,
     /// The values of inputs in the last concrete steps.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     inputs: Vec<(String, String)>,
@@ -256,12 +259,14 @@ impl RunPair {
             diagrams: diagrams.collect(),
             ended: "fault",
             again_from: None,
+            again_from_step: None,
             inputs: Vec::new(),
             tried: Vec::new(),
         };
         match &refutation.ended {
             Ended::Fault => {}
             Ended::Waits(turn) => (pair.ended, pair.again_from) = ("waits", Some(*turn)),
+            Ended::Endless(turn) => (pair.ended, pair.again_from_step) = ("endless", Some(*turn)),
             Ended::Unmatched { inputs, tried, .. } => {
                 pair.ended = "unmatched";
                 pair.inputs.clone_from(inputs);

@@ -28,7 +28,7 @@ pub use proof::said;
 pub use refinement::{Refinements, Standing, no_start, trace_of};
 pub use review::says;
 pub use run::{Detail, Narrator};
-pub use side_by_side::WAITS;
+pub use side_by_side::{Row, WAITS};
 pub use story::story;
 pub use verdict::{Story, Verdicts, id};
 

@@ -6,8 +6,8 @@ use std::collections::BTreeMap;
 
 use explore::Told;
 use refine::{
-    ABSTRACT, Assumed, CONCRETE, Coupling, Ended, From, Preserved, Refutation, Report, Run, SIDES, Trouble, Vacuous,
-    Verdict, Why,
+    ABSTRACT, Assumed, CONCRETE, Coupling, Ended, From, MOST, Preserved, Refutation, Report, Run, SIDES, Trouble,
+    Vacuous, Verdict, Why,
 };
 use syntax::Diagnostic;
 use verify::{Outcome, Trace};
@@ -96,21 +96,30 @@ impl Refinements<'_> {
         match verdict {
             Verdict::Refines => vec!["refines".to_string()],
             Verdict::DoesNot(refutation) => {
-                let mut lines = vec![format!("does not refine: {}", self.headline(refutation))];
+                let mut lines = vec![format!("does not refine: {}", self.reason(verdict))];
                 lines.extend(self.runs(refutation));
                 lines.extend(self.end(refutation));
                 lines
             }
-            Verdict::Unknown(whys) => {
-                let whys: Vec<String> = whys.iter().map(|why| self.why(why)).collect();
-                vec![format!("not known: {}", whys.join("; "))]
-            }
-            Verdict::Vacuous(Vacuous::NoInitialPair(refutation)) => {
-                let mut lines = self.runs(refutation);
-                lines.extend(self.end(refutation));
+            Verdict::Unknown(_) => vec![format!("not known: {}", self.reason(verdict))],
+            Verdict::Vacuous(vacuous) => {
+                let mut lines = vec![format!("says nothing: {}", self.reason(verdict))];
+                if let Vacuous::NoInitialPair(refutation) = vacuous {
+                    lines.extend(self.runs(refutation));
+                    lines.extend(self.end(refutation));
+                }
                 lines
             }
-            Verdict::Vacuous(_) => Vec::new(),
+        }
+    }
+
+    /// Why the verdict is what it is, in a sentence; nothing if it refines.
+    pub fn reason(&self, verdict: &Verdict) -> String {
+        match verdict {
+            Verdict::Refines => String::new(),
+            Verdict::DoesNot(refutation) => self.headline(refutation),
+            Verdict::Unknown(whys) => whys.iter().map(|why| self.why(why)).collect::<Vec<_>>().join("; "),
+            Verdict::Vacuous(vacuous) => self.emptiness(vacuous),
         }
     }
 
@@ -124,6 +133,7 @@ impl Refinements<'_> {
             Ended::Unmatched { .. } => format!("nothing matches step {steps} of the concrete machine"),
             Ended::Fault => format!("the concrete machine cannot make step {steps}"),
             Ended::Waits(_) => "the concrete machine goes on for ever, and the abstract one makes no step".to_string(),
+            Ended::Endless(_) => "the concrete machine goes on for ever, and the segment does not end".to_string(),
         }
     }
 
@@ -138,6 +148,11 @@ impl Refinements<'_> {
             Why::Unbounded(side, unbounded) => {
                 let message = self.unbounded(*side, unbounded).message;
                 format!("in the {} machine {message}", SIDES[*side])
+            }
+            Why::Long(MOST) => {
+                format!(
+                    "a segment has more than {MOST} concrete steps, the most that a diagram may have: let `segment` hold in between"
+                )
             }
             Why::Long(most) => format!(
                 "a segment has more than {}; `diagrams` may allow more",
@@ -299,9 +314,9 @@ impl Refinements<'_> {
         lines
     }
 
-    /// A question that says nothing, as a fault of the coupling.
-    pub fn vacuous(&self, vacuous: &Vacuous) -> Diagnostic {
-        let message = match vacuous {
+    /// Why a question says nothing, in words.
+    fn emptiness(&self, vacuous: &Vacuous) -> String {
+        match vacuous {
             Vacuous::NoInitialPair(_) => {
                 "no initial states correspond: the coupling holds of no initial pair".to_string()
             }
@@ -310,13 +325,19 @@ impl Refinements<'_> {
             Vacuous::NoneLeft => {
                 "the assumptions leave the concrete machine no step: there is nothing to refine".to_string()
             }
-            Vacuous::Total => "the coupling holds of every two states: nothing is observed".to_string(),
+            Vacuous::Total => {
+                "the coupling holds of every two states that are reached: nothing is observed".to_string()
+            }
             Vacuous::NoStart(side) => {
                 format!("the {} machine has no initial state that its assumptions admit", SIDES[*side])
             }
-        };
+        }
+    }
+
+    /// A question that says nothing, as a fault of the coupling.
+    pub fn vacuous(&self, vacuous: &Vacuous) -> Diagnostic {
         let span = syntax::Span { file: self.coupling.file, start: 0, end: 0 };
-        Diagnostic::error("vacuous-refinement", span, message)
+        Diagnostic::error("vacuous-refinement", span, self.emptiness(vacuous))
     }
 }
 

@@ -5,13 +5,17 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use refine::{ABSTRACT, CONCRETE, Ended, Part, Refutation, SIDES};
+use refine::{ABSTRACT, CONCRETE, Ended, Part, Refutation, SIDES, Tried};
 
 use super::{FoundStep, Refinements};
 
 /// What to do where the concrete machine goes on for ever.
 pub const WAITS: &str = "if something outside the models ends this, say what is true again and again, `fair TERM;`, or take it for granted, \
                          `allow waiting;`";
+
+/// What to do where a segment never ends.
+const ENDLESS: &str = "let `segment` hold in one of these states; or, if something outside the models ends this, say what is true again and again, \
+                       `fair TERM;`";
 
 /// LIMIT: so many lines of an initial state are shown.
 const STATE_LINES: usize = 24;
@@ -51,10 +55,9 @@ impl Refinements<'_> {
         move |location: &str| is_small || names.contains(location)
     }
 
-    /// Both runs side by side.
-    pub(super) fn runs(&self, refutation: &Refutation) -> Vec<String> {
+    /// Both runs, diagram by diagram, the initial states first.
+    pub fn rows(&self, refutation: &Refutation) -> Vec<Row> {
         let runs = [ABSTRACT, CONCRETE].map(|side| self.steps(side, &refutation.runs[side]));
-        let mut rows: Vec<(String, Vec<String>, Vec<String>)> = Vec::new();
         let begun = |side: usize| {
             let values = &runs[side][0];
             let matters = self.matters(refutation, &runs, side);
@@ -68,9 +71,10 @@ impl Refinements<'_> {
             }
             lines
         };
-        rows.push(("state 0".to_string(), begun(ABSTRACT), begun(CONCRETE)));
-        let (mut made, mut there) = (1, 1);
         let lines = |steps: &[FoundStep]| steps.iter().flat_map(step).collect::<Vec<String>>();
+        let sides = [begun(ABSTRACT), begun(CONCRETE)];
+        let mut rows = vec![Row { label: "state 0".to_string(), sides, steps: [0, 0], is_loose: false }];
+        let (mut made, mut there) = (1, 1);
         for (index, segment) in refutation.segments.iter().enumerate() {
             let label = match &refutation.ended {
                 Ended::Waits(turn) if *turn == index => format!("{}:{} again and again", segment.m, segment.n),
@@ -80,22 +84,40 @@ impl Refinements<'_> {
                 0 => vec!["no step".to_string()],
                 m => lines(&runs[ABSTRACT][made..(made + m).min(runs[ABSTRACT].len())]),
             };
-            rows.push((label, left, lines(&runs[CONCRETE][there..(there + segment.n).min(runs[CONCRETE].len())])));
+            let right = lines(&runs[CONCRETE][there..(there + segment.n).min(runs[CONCRETE].len())]);
+            rows.push(Row { label, sides: [left, right], steps: [segment.m, segment.n], is_loose: false });
             (made, there) = (made + segment.m, there + segment.n);
         }
-        if there < runs[CONCRETE].len() {
-            let left = match refutation.ended {
-                Ended::Fault => Vec::new(),
-                _ => vec!["nothing matches".to_string()],
-            };
-            rows.push((format!("?:{}", runs[CONCRETE].len() - there), left, lines(&runs[CONCRETE][there..])));
+        let mut rest = |steps: &[FoundStep], again: &str, left: &str| {
+            if steps.is_empty() {
+                return;
+            }
+            let left = if left.is_empty() { Vec::new() } else { vec![left.to_string()] };
+            let label = format!("?:{}{again}", steps.len());
+            rows.push(Row { label, sides: [left, lines(steps)], steps: [0, steps.len()], is_loose: true });
+        };
+        let behind = &runs[CONCRETE][there..];
+        match refutation.ended {
+            Ended::Endless(turn) => {
+                let (way, circle) = behind.split_at(turn + 1 - there);
+                rest(way, "", "the segment goes on");
+                rest(circle, " again and again", "it does not end");
+            }
+            Ended::Fault => rest(behind, "", ""),
+            Ended::Waits(_) | Ended::Unmatched { .. } => rest(behind, "", "nothing matches"),
         }
+        rows
+    }
+
+    /// Both runs side by side.
+    pub(super) fn runs(&self, refutation: &Refutation) -> Vec<String> {
+        let rows = self.rows(refutation);
         let count = |text: &str| text.chars().count();
-        let widest = rows.iter().flat_map(|(_, left, _)| left).map(|line| count(line)).max().unwrap_or(0);
+        let widest = rows.iter().flat_map(|row| &row.sides[ABSTRACT]).map(|line| count(line)).max().unwrap_or(0);
         let width = widest.clamp(count("abstract"), WIDTH);
-        let labels = rows.iter().map(|(label, ..)| count(label)).max().unwrap_or(0);
+        let labels = rows.iter().map(|row| count(&row.label)).max().unwrap_or(0);
         let mut out = vec![format!("  {:labels$}  {:width$}  concrete", "", "abstract")];
-        for (label, left, right) in rows {
+        for Row { label, sides: [left, right], .. } in rows {
             for index in 0..left.len().max(right.len()).max(1) {
                 let label = if index == 0 { label.as_str() } else { "" };
                 let of = |lines: &[String]| lines.get(index).cloned().unwrap_or_default();
@@ -105,47 +127,77 @@ impl Refinements<'_> {
         out
     }
 
-    /// What is wrong at the end of the runs.
-    pub(super) fn end(&self, refutation: &Refutation) -> Vec<String> {
-        let mut lines = Vec::new();
+    /// What is said of the end of the runs.
+    pub fn remarks(&self, refutation: &Refutation) -> Vec<String> {
         match &refutation.ended {
             Ended::Fault => {
                 let fault = self.steps(CONCRETE, &refutation.runs[CONCRETE]).pop().and_then(|step| step.fault);
-                lines.extend(fault.map(|fault| format!("  the concrete machine: {fault}")));
+                fault.into_iter().map(|fault| format!("the concrete machine: {fault}")).collect()
             }
             Ended::Waits(turn) => {
                 let from = refutation.segments[..*turn].iter().map(|segment| segment.n).sum::<usize>();
-                lines.push(format!("  and again from step {} of the concrete machine, for ever", from + 1));
-                lines.push(format!("  {WAITS}"));
+                vec![again_from(from), WAITS.to_string()]
             }
-            Ended::Unmatched { inputs, tried, faults } => {
-                for (name, value) in inputs {
-                    lines.push(format!("  input {name} is {value}"));
-                }
-                for candidate in tried {
-                    let steps: Vec<String> = self.tried(&candidate.steps).iter().flat_map(step).collect();
-                    let what = match candidate.steps.len() {
-                        0 if refutation.runs[CONCRETE].steps.is_empty() => "the abstract machine begins".to_string(),
-                        0 => "the abstract machine makes no step".to_string(),
-                        _ => format!("the abstract machine steps: {}", steps.join(", ")),
-                    };
-                    lines.push(format!("  if {what}"));
-                    if candidate.parts.is_empty() {
-                        lines.push("    no diagram allows so many steps".to_string());
-                    }
-                    let parts = candidate.parts.iter().flat_map(broken);
-                    lines.extend(parts.map(|line| format!("    {line}")));
-                }
-                if tried.is_empty() {
-                    lines.push("  the abstract machine has no step with these inputs".to_string());
-                }
-                lines.extend(
-                    faults.iter().map(|fault| format!("  a step of the abstract machine cannot be made: {fault}")),
-                );
+            Ended::Endless(turn) => vec![again_from(*turn), ENDLESS.to_string()],
+            Ended::Unmatched { inputs, .. } => {
+                inputs.iter().map(|(name, value)| format!("input {name} is {value}")).collect()
             }
         }
-        lines
     }
+
+    /// What the abstract machine could have done at the end, and the parts of the coupling that fail then, each as lines.
+    pub fn candidates(&self, refutation: &Refutation) -> Vec<(String, Vec<Vec<String>>)> {
+        let Ended::Unmatched { tried, .. } = &refutation.ended else { return Vec::new() };
+        let does = |candidate: &Tried| {
+            let steps: Vec<String> = self.tried(&candidate.steps).iter().flat_map(step).collect();
+            match candidate.steps.len() {
+                0 if refutation.runs[CONCRETE].steps.is_empty() => "the abstract machine begins".to_string(),
+                0 => "the abstract machine makes no step".to_string(),
+                _ => format!("the abstract machine steps: {}", steps.join(", ")),
+            }
+        };
+        let fails = |candidate: &Tried| match candidate.parts.is_empty() {
+            true => vec![vec!["no diagram allows so many steps".to_string()]],
+            false => candidate.parts.iter().map(broken).collect(),
+        };
+        tried.iter().map(|candidate| (does(candidate), fails(candidate))).collect()
+    }
+
+    /// What else is said of what the abstract machine could have done.
+    pub fn hindrances(&self, refutation: &Refutation) -> Vec<String> {
+        let Ended::Unmatched { tried, faults, .. } = &refutation.ended else { return Vec::new() };
+        let none = tried.is_empty().then(|| "the abstract machine has no step with these inputs".to_string());
+        let faults = faults.iter().map(|fault| format!("a step of the abstract machine cannot be made: {fault}"));
+        none.into_iter().chain(faults).collect()
+    }
+
+    /// What is wrong at the end of the runs.
+    pub(super) fn end(&self, refutation: &Refutation) -> Vec<String> {
+        let mut lines = self.remarks(refutation);
+        for (does, fails) in self.candidates(refutation) {
+            lines.push(format!("if {does}"));
+            lines.extend(fails.iter().flatten().map(|line| format!("  {line}")));
+        }
+        lines.extend(self.hindrances(refutation));
+        lines.iter().map(|line| format!("  {line}")).collect()
+    }
+}
+
+/// A diagram of both runs, or the initial states, or what belongs to no diagram.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Row {
+    /// `m:n`, or what the row is.
+    pub label: String,
+    /// What each machine does, as lines.
+    pub sides: [Vec<String>; 2],
+    /// How many steps each makes.
+    pub steps: [usize; 2],
+    /// Nothing corresponds to it.
+    pub is_loose: bool,
+}
+
+fn again_from(step: usize) -> String {
+    format!("and again from step {} of the concrete machine, for ever", step + 1)
 }
 
 /// A step as lines.

@@ -26,7 +26,7 @@ impl Builder {
         }
         for part in &written.fair {
             let Some(formula) = self.term(part, None) else { continue };
-            self.concrete_only(&formula, part, "fairness is said", "the concrete machine's state and inputs alone");
+            self.concrete_only(&formula, "fairness is said", "the concrete machine's state and inputs alone");
             let functions = self.functions_of(&formula, CONCRETE);
             if functions.is_empty() {
                 let place = self.place(part);
@@ -38,10 +38,8 @@ impl Builder {
         if !written.waiting {
             let properties = self.coupling.programs[CONCRETE].properties.iter();
             let just = properties.filter(|property| property.kind == PropertyKind::Justice);
-            let own = just.map(|property| Fair {
-                term: FairTerm::Own(property.formula.clone()),
-                in_step: property.reads_monitored,
-            });
+            let own =
+                just.map(|property| Fair { term: FairTerm::Own(property.clone()), in_step: property.reads_monitored });
             self.coupling.fair.extend(own);
         }
     }
@@ -154,8 +152,8 @@ impl Builder {
         let joint = &self.coupling.joint.program;
         let Some(id) = joint.find_function(&joint_name(ABSTRACT, &mapped.input.text), 0) else { return };
         let domain = joint.function(id).codomain;
-        let Some(formula) = self.term(&mapped.term, Some(domain)) else { return };
-        self.concrete_only(&formula, &mapped.term, "the input is given", "the concrete machine alone");
+        let Some(formula) = self.term(&mapped.term, Some((domain, "the input"))) else { return };
+        self.concrete_only(&formula, "the input is given", "the concrete machine alone");
         let functions = self.functions_of(&formula, CONCRETE);
         let reads_inputs = self.reads_inputs(&functions);
         self.coupling.shared[ABSTRACT].entry(input).or_default().push(input.0);

@@ -125,7 +125,7 @@ fn starts(coupling: &Coupling, options: &Options) -> Result<([Vec<Told>; 2], Vec
                     begun.push(one);
                 }
             }
-            Node::Fault | Node::Open(_) => {
+            Node::Fault | Node::Endless | Node::Open(_) => {
                 let what = "inputs of initial states that have too many values";
                 return Err((Origin::Coupling, nowhere(what)));
             }

@@ -1,0 +1,135 @@
+//! On random pairs of small machines, of which segments end where a flag is not set, the verdict is that of an independent judge.
+//!
+//! It goes over all pairs again and again until nothing changes, follows each way of the concrete machine to the end of its segment, and
+//! asks of one that is longer than a diagram whether a circle without an end can be reached. `GROUNDSTATE_FULL` takes 2000 pairs.
+
+#![allow(clippy::disallowed_methods, reason = "a test reads the environment")]
+
+use std::collections::BTreeSet;
+
+use refine::{ABSTRACT, CONCRETE, Ended, Verdict, Why};
+use testkit::Random;
+
+use crate::naive::{Fair, Graph, Pairs, State, again, changed, graph, has_fair_round, machine_of, rule};
+use crate::small::report;
+
+/// A diagram has one abstract step and so many concrete ones.
+const LONGEST: usize = 4;
+
+/// The steps between states within a segment that can be reached from one.
+fn within(graph: &Graph, from: State) -> Graph {
+    let mut reached = BTreeSet::from([from]);
+    let mut open = vec![from];
+    while let Some(state) = open.pop() {
+        let next = [false, true].into_iter().flat_map(|go| graph[&(state, go)].iter().copied());
+        open.extend(next.filter(|next| next.1).filter(|next| reached.insert(*next)));
+    }
+    let inside = |to: &BTreeSet<State>| to.iter().copied().filter(|next| next.1).collect();
+    let own = graph.iter().filter(|((state, _), _)| reached.contains(state));
+    own.map(|(from, to)| (*from, inside(to))).collect()
+}
+
+struct Judge<'g> {
+    graphs: [&'g Graph; 2],
+    fair: &'g [Fair],
+    /// A segment that is too long counts as answered, if it ends.
+    hopeful: bool,
+    related: Pairs,
+}
+
+impl Judge<'_> {
+    /// Whether each way from here to the end of the segment is answered, where these inputs came before.
+    fn answers(&self, from: State, at: State, before: &[bool]) -> bool {
+        [false, true].into_iter().all(|go| {
+            let inputs = [before, &[go]].concat();
+            self.graphs[CONCRETE][&(at, go)].iter().all(|next| match next.1 {
+                false => {
+                    let mut there = inputs.iter().flat_map(|go| &self.graphs[ABSTRACT][&(from, *go)]);
+                    there.any(|there| self.related.contains(&(*there, *next)))
+                }
+                true if inputs.len() == LONGEST => {
+                    self.hopeful && !has_fair_round(&within(self.graphs[CONCRETE], *next), self.fair)
+                }
+                true => self.answers(from, *next, &inputs),
+            })
+        })
+    }
+
+    fn refines(mut self, begun: (State, State)) -> bool {
+        let states = |graph: &Graph| graph.keys().map(|(state, _)| *state).collect::<BTreeSet<State>>();
+        for one in states(self.graphs[ABSTRACT]) {
+            let ends = states(self.graphs[CONCRETE]).into_iter().filter(|other| !other.1 && other.0 == one.0);
+            self.related.extend(ends.map(|other| (one, other)));
+        }
+        loop {
+            let kept: Pairs =
+                self.related.iter().copied().filter(|(one, other)| self.answers(*one, *other, &[])).collect();
+            if kept == self.related {
+                return kept.contains(&begun);
+            }
+            self.related = kept;
+        }
+    }
+}
+
+fn agree(coupling: &str, fair: &[Fair], some_are_endless: bool) {
+    let full = std::env::var_os("GROUNDSTATE_FULL").is_some();
+    let pairs = if full { 2000 } else { 150 };
+    let [mut refines, mut refuted, mut endless, mut unknown] = [0; 4];
+    for seed in 0..pairs {
+        let mut random = Random(seed * 6007 + 11);
+        let one = rule(&mut random);
+        let other = match random.below(3) {
+            0 => rule(&mut random),
+            1 => changed(&mut random, &one),
+            _ => format!("if h then {} else {one} endif", rule(&mut random)),
+        };
+        let programs = [machine_of(&one), machine_of(&other)];
+        let [first, second] = [graph(&programs[0]), graph(&programs[1])];
+        let judge = |hopeful: bool| Judge { graphs: [&first.1, &second.1], fair, hopeful, related: Pairs::new() };
+        let begun = (first.0, second.0);
+        let found = report(&programs[0], &programs[1], Some(coupling));
+        let of = || format!("seed {seed}\n{one}\n{other}\n{found:#?}");
+        match &found.verdict {
+            Verdict::Vacuous(_) => {}
+            Verdict::Refines => {
+                refines += 1;
+                assert!(judge(false).refines(begun), "{}", of());
+            }
+            Verdict::Unknown(whys) => {
+                unknown += 1;
+                assert_eq!(whys[..], [Why::Long(LONGEST as u32)], "{}", of());
+                assert!(judge(true).refines(begun) && !judge(false).refines(begun), "{}", of());
+            }
+            Verdict::DoesNot(refutation) => {
+                refuted += 1;
+                assert!(!judge(true).refines(begun), "{}", of());
+                let states = again(&programs[CONCRETE], &refutation.runs[CONCRETE]);
+                if let Ended::Endless(turn) = refutation.ended {
+                    endless += 1;
+                    assert_eq!(states.last(), Some(&states[turn]), "{}", of());
+                    let begun: usize = refutation.segments.iter().map(|segment| segment.n).sum();
+                    assert!(begun <= turn && states[begun + 1..].iter().all(|state| state.1), "{}", of());
+                }
+            }
+        }
+    }
+    assert!(
+        refines > 5 && refuted > 5 && (endless > 1) == some_are_endless,
+        "{coupling}: {refines} {refuted} {endless} {unknown}"
+    );
+}
+
+#[test]
+fn segments_that_never_end_are_those_of_a_naive_judge() {
+    agree("same n; segment not concrete.h; diagrams 1:1..4;", &[], true);
+}
+
+#[test]
+fn so_it_is_where_runs_are_fair() {
+    agree("same n; segment not concrete.h; diagrams 1:1..4; fair concrete.go;", &[|go, _| go], true);
+    let coupling = "same n; segment not concrete.h; diagrams 1:1..4; fair concrete.go; fair concrete.n != 0;";
+    agree(coupling, &[|go, _| go, |_, (n, _)| n != 0], true);
+    // Within a segment the flag is set.
+    agree("same n; segment not concrete.h; diagrams 1:1..4; fair not concrete.h;", &[|_, (_, h)| !h], false);
+}
