@@ -4,7 +4,7 @@
 //! state by state ([`ReportBuilder`]), and data that a shell adds from elsewhere; or the recorded events of a program
 //! ([`ProgramRun`]). Out: [`render_html`] and [`render_program`], a page in a single file that needs nothing else;
 //! [`render_svg`], a still picture; [`summarise`] and [`summarise_program`], the same in short for a terminal. A mutation
-//! analysis has a page, too ([`render_mutation`]).
+//! analysis has a page, too ([`render_mutation`]), and so has a refinement check ([`render_refinement`]).
 //!
 //! It must not know what a task or a buffer of any model is called, how a model is executed, or a file; the same
 //! report gives the same bytes.
@@ -19,6 +19,7 @@ mod levels;
 mod markup;
 mod mutation;
 mod program;
+mod refinement;
 mod report;
 mod spec;
 mod specification;
@@ -31,11 +32,12 @@ mod track;
 
 pub use builder::{ReportBuilder, SHOWN_TICKS};
 pub use flow::{Flow, Journey};
-pub use html::{LiveTimeline, render_html, render_mutation, render_program, render_timeline};
+pub use html::{LiveTimeline, render_html, render_mutation, render_program, render_refinement, render_timeline};
 pub use levels::Levels;
 pub use mutation::{Fate, JudgedMutant, MutatedFile, MutationAnalysis};
 pub use program::{ChannelAge, ClosedLoop, Held, Joint, Program, ProgramRun, TaskTiming, View};
 pub use recording::{Bounded, Greatest};
+pub use refinement::{Candidate, Diagram, Judgement, RefinementCheck};
 pub use report::{
     Buffer, Chart, Coverage, Fact, Invariant, Lights, Measure, Queue, Report, Scenario, Series, Task, Verdict,
 };

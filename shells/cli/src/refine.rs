@@ -7,10 +7,12 @@ use std::collections::BTreeMap;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
+use ::report::Fact;
 use clap::{Args, ValueEnum};
 use groundstate::inputs::bound;
 use groundstate::job::{self, Asked, Cancel, RefineEvent};
 use groundstate::refine::{ABSTRACT, CONCRETE, Coupling, Extent, Options, Report, SIDES, Trouble, Verdict, read};
+use groundstate::reporting::{NoPage, refinement_page};
 use groundstate::tell::{Refinements, Standing, no_start, trace_of};
 use groundstate::verify::{Outcome, Progress, Subject};
 use groundstate::{Assumptions, Loaded, assume, refine, terms_of, verify_preserved};
@@ -79,6 +81,9 @@ pub struct Arguments {
     /// Write both runs of a refutation into this folder, as abstract.avalla and concrete.avalla
     #[arg(long, value_name = "FOLDER")]
     counterexample: Option<PathBuf>,
+    /// Write a page (HTML): the verdict, both runs of a refutation as timelines and charts side by side, the part of the coupling that fails
+    #[arg(long, value_name = "FILE.html")]
+    page: Option<PathBuf>,
 }
 
 /// How it is decided.
@@ -189,6 +194,11 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     tell(shell, &words, &report)?;
     if let (Some(folder), Verdict::DoesNot(refutation)) = (&arguments.counterexample, &report.verdict) {
         write_scenarios(shell, folder, &question.models, &words, refutation)?;
+    }
+    if let Some(path) = &arguments.page
+        && !write_page(shell, path, &question.models, &words, &report)?
+    {
+        return Ok(Exit::World);
     }
     Ok(match report.verdict {
         Verdict::Refines => of_properties(&words, &report),
@@ -396,6 +406,41 @@ fn tell(shell: &mut Shell, words: &Refinements<'_>, report: &Report) -> Result<(
         write!(shell.out(), "{}", words.report(report))?;
     }
     Ok(())
+}
+
+/// Writes the page of the check; if what stands beside a model has faults, shows them and returns `false`.
+fn write_page(
+    shell: &mut Shell,
+    path: &Path,
+    models: &[PathBuf; 2],
+    words: &Refinements<'_>,
+    report: &Report,
+) -> Result<bool, Failure> {
+    let paths = models.each_ref().map(|path| path.display().to_string());
+    let paths = [paths[ABSTRACT].as_str(), paths[CONCRETE].as_str()];
+    let limits = shell.global.limits.uninterrupted();
+    let mut check = match refinement_page(words, report, paths, &mut shell.disk(), &draw::Page, &limits) {
+        Ok(check) => check,
+        Err(NoPage::Faulty(sources, faults)) => {
+            shell.diagnostics(&sources, &faults)?;
+            return Ok(false);
+        }
+        Err(NoPage::Unread(path, absent)) => return Err(Failure::usage(absent.told(&path))),
+        Err(NoPage::NotDrawn(fault)) => return Err(Failure::usage(fault.to_string())),
+    };
+    let fact = |label: &str, value: String| Fact { label: label.to_string(), value };
+    check.facts = vec![
+        fact("Abstract model", paths[ABSTRACT].to_string()),
+        fact("Concrete model", paths[CONCRETE].to_string()),
+        fact("Fingerprint of the abstract model", groundstate::fingerprint(&words.models[ABSTRACT].sources)),
+        fact("Fingerprint of the concrete model", groundstate::fingerprint(&words.models[CONCRETE].sources)),
+        fact("Groundstate", env!("CARGO_PKG_VERSION").to_string()),
+    ];
+    write_text(path, &::report::render_refinement(&check))?;
+    if shell.talks() {
+        writeln!(shell.out(), "wrote {}", path.display())?;
+    }
+    Ok(true)
 }
 
 /// Writes both runs as scenarios.

@@ -16,12 +16,13 @@ use crate::workspace::Files;
 /// The CSS class of the pictures in the page.
 const CLASS: &str = "chart";
 
-/// Adds the named charts to the specification, which lies at `path`, and returns their faults.
+/// Adds the named charts to the specification, which lies at `path`, and returns their faults. `page` tells their pictures from others on
+/// the same page.
 pub fn add<F: Files + Loader>(
     files: &mut F,
     sources: &mut Sources,
     specification: &mut Specification,
-    path: &str,
+    (path, page): (&str, &str),
     pictures: &dyn Pictures,
 ) -> Result<Vec<Diagnostic>, NotDrawn> {
     let mut faults = Vec::new();
@@ -41,7 +42,7 @@ pub fn add<F: Files + Loader>(
         let whole = !has_errors(&loaded.diagnostics);
         faults.extend(loaded.diagnostics);
         if whole {
-            show(specification, &chart, &wanted, pictures, &mut faults)?;
+            show(specification, (&chart, page), &wanted, pictures, &mut faults)?;
         }
     }
     specification.spec.chart_style = pictures.style(CLASS);
@@ -50,7 +51,7 @@ pub fn add<F: Files + Loader>(
 
 fn show(
     specification: &mut Specification,
-    chart: &chart::Chart,
+    (chart, page): (&chart::Chart, &str),
     wanted: &Wanted,
     pictures: &dyn Pictures,
     faults: &mut Vec<Diagnostic>,
@@ -66,7 +67,7 @@ fn show(
         if own.is_none() && !wanted.machines.is_empty() {
             continue;
         }
-        let prefix = format!("chart-{}-", specification.spec.charts.len());
+        let prefix = format!("{page}chart-{}-", specification.spec.charts.len());
         let picture = pictures.part(subject, &prefix, CLASS)?;
         let parametric = subject.machine().is_some_and(|machine| !machine.parameters.is_empty());
         let lights = subject.lights(&elements);

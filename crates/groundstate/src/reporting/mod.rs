@@ -10,6 +10,7 @@ mod derived;
 mod evidence;
 mod of_model;
 mod recorded;
+mod refinement;
 mod watch;
 mod watched;
 
@@ -30,6 +31,7 @@ pub use counted::{Counted, counted_inputs, counted_times};
 pub use derived::{specification_beside, system_beside};
 pub use evidence::{reported_coverage, reported_scenario};
 pub use recorded::{held_in_words, run_name};
+pub use refinement::{NoPage, refinement_page};
 pub use watched::Watched;
 
 /// The result of reading a specification.
@@ -58,7 +60,7 @@ pub fn prepare_report<F: Files + Loader>(
         Ok(wanted) => wanted,
         Err(faults) => return Ok(Prepared { reporter: None, faults }),
     };
-    let mut faults = charts::add(files, &mut asked.sources, &mut wanted, path, pictures)?;
+    let mut faults = charts::add(files, &mut asked.sources, &mut wanted, (path, ""), pictures)?;
     if has_errors(&faults) {
         return Ok(Prepared { reporter: None, faults });
     }

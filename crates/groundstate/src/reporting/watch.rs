@@ -54,10 +54,15 @@ impl Watch {
 
     /// Evaluates the terms in the present state. A term that cannot be evaluated, for want of an input, is undef.
     pub fn look(&mut self, machine: &mut Machine, builder: &mut ReportBuilder) {
+        self.changed(machine, &mut |index, value| builder.set(index, value));
+    }
+
+    /// The same, with each term whose value has changed.
+    pub fn changed(&mut self, machine: &mut Machine, tell: &mut dyn FnMut(usize, &str)) {
         for (index, (term, last)) in self.terms.iter().zip(&mut self.values).enumerate() {
             let value = machine.evaluate(term, &mut Closed).unwrap_or(Value::Undef);
             if value != *last {
-                builder.set(index, &value.show(machine.program()).to_string());
+                tell(index, &value.show(machine.program()).to_string());
                 *last = value;
             }
         }

@@ -60,8 +60,9 @@ function lightCharts(run, drawing, timeline) {
     moment = Math.min(Math.max(Math.floor(tick), 0), run.shown - 1);
     if (moment === before) return;
     slider.value = moment;
-    slider.setAttribute("aria-valuetext", `${timed(moment)}, step ${moment + run.first}`);
-    now.textContent = `${timed(moment)}, step ${moment + run.first}`;
+    const step = `step ${moment + run.first}`;
+    now.textContent = run.unit === "steps" ? step : `${timed(moment)}, ${step}`;
+    slider.setAttribute("aria-valuetext", now.textContent);
     light(moment);
     timeline.place(moment);
     const [from, to] = timeline.window();
@@ -109,5 +110,6 @@ function lightCharts(run, drawing, timeline) {
     svg.style.width = `${svg.viewBox.baseVal.width}px`;
   }
   document.getElementById("moment").hidden = false;
-  set(Math.min(Math.floor(run.window / 3), run.shown - 1));
+  const { first } = slider.dataset;
+  set(first === undefined ? Math.min(Math.floor(run.window / 3), run.shown - 1) : Number(first));
 }

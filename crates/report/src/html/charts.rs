@@ -6,19 +6,20 @@ use crate::html::section;
 use crate::markup::{Text, put};
 use crate::report::{Chart, Report};
 
-/// Writes the section.
-pub(super) fn charts(out: &mut String, report: &Report) {
+/// Writes the section. The script shows a third of the first view, or the moment that is asked for, first.
+pub(super) fn charts(out: &mut String, report: &Report, first: Option<u64>) {
     if report.charts.is_empty() {
         return;
     }
     section(out, "charts", "Control states", "");
+    let first = first.map_or(String::new(), |tick| format!(" data-first=\"{tick}\""));
     put!(
         out,
         "<div class=\"moment\" id=\"moment\" hidden=\"hidden\">\n\
          <span class=\"group\"><button type=\"button\" id=\"play\" aria-pressed=\"false\">Play</button>\
          <button type=\"button\" data-step=\"-1\" aria-label=\"A step back\" title=\"A step back\">\u{2190}</button>\
          <button type=\"button\" data-step=\"1\" aria-label=\"A step on\" title=\"A step on\">\u{2192}</button></span>\n\
-         <input type=\"range\" id=\"tick\" min=\"0\" max=\"{}\" value=\"0\" step=\"1\" aria-label=\"Moment of the run\"/>\n\
+         <input type=\"range\" id=\"tick\" min=\"0\" max=\"{}\" value=\"0\" step=\"1\"{first} aria-label=\"Moment of the run\"/>\n\
          <output id=\"now\" for=\"tick\"></output>\n\
          <span class=\"hint\">or point at the timeline</span>\n</div>\n",
         report.shown.max(1) - 1

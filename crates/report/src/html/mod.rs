@@ -10,11 +10,13 @@ mod figures;
 mod lanes;
 mod mutation;
 mod program;
+mod refinement;
 mod tables;
 mod verdicts;
 
 pub use mutation::render_mutation;
 pub use program::render_program;
+pub use refinement::render_refinement;
 
 use crate::markup::{Text, put};
 use crate::report::Report;
@@ -36,7 +38,7 @@ pub fn render_html(report: &Report) -> String {
     if report.has_lanes() {
         lanes::timeline_section(&mut out, report);
     }
-    charts::charts(&mut out, report);
+    charts::charts(&mut out, report, None);
     tables::tasks(&mut out, report);
     tables::waiting(&mut out, report);
     tables::ages(&mut out, report);
