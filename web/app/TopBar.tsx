@@ -26,7 +26,7 @@ export function TopBar({ studio, sidebar, showSidebar }: { studio: Studio; sideb
   const [menu, setMenu] = useState<{ x: number; y: number } | null>(null)
   const doc = studio.doc(active)
   const jobs = jobsFor(studio, active)
-  const first = jobs.find(({ job }) => job === 'verify') ?? jobs.find(({ job }) => job === 'test')
+  const first = jobs.find(({ job }) => job === 'verify') ?? jobs.find(({ job }) => job === 'test' || job === 'refine')
   return (
     <header className="topbar">
       {!sidebar && (

@@ -205,12 +205,15 @@ function Panels({ studio }: { studio: Studio }): ReactNode {
   const problems = useStore(studio.store, counted)
   const running = useStore(studio.jobs.store, (state) => state.jobs.some((job) => job.running))
   const session = useStore(studio.runner.store, (state) => state.session !== null)
-  const [height, setHeight] = useState(() => Number(localStorage.getItem('groundstate-panel') ?? 250))
+  const tall = useStore(studio.store, (state) => state.tall && state.panel === 'check')
+  const [low, setHeight] = useState(() => Number(localStorage.getItem('groundstate-panel') ?? 250))
+  const height = tall ? Math.max(low, window.innerHeight * 0.62) : low
   const resize = useCallback((_: number, event: PointerEvent) => {
     const kept = Math.min(window.innerHeight * 0.7, Math.max(110, window.innerHeight - event.clientY - 32))
     localStorage.setItem('groundstate-panel', String(Math.round(kept)))
     setHeight(kept)
-  }, [])
+    studio.store.set({ tall: false })
+  }, [studio])
   return (
     <section className="panels">
       {panel && <Splitter axis="y" value={Math.round((height / window.innerHeight) * 100)} resize={resize} />}

@@ -54,6 +54,8 @@ export function jobsFor(studio: Studio, uri: string | null): { job: JobKind; act
       return [start('verify'), start('test'), start('graph'), start('review'), start('mutate'), start('generate')]
     case 'scenario':
       return [start('test')]
+    case 'coupling':
+      return [start('refine')]
     default:
       return []
   }
@@ -98,6 +100,7 @@ export const jobIcons: Record<JobKind, string> = {
   review: 'search',
   times: 'clock',
   mutate: 'mutant',
+  refine: 'refine',
   graph: 'states',
   program: 'play',
 }

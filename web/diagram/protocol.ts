@@ -60,7 +60,7 @@ export interface Changed {
   text: string | null
 }
 
-export type JobKind = 'verify' | 'test' | 'build' | 'check' | 'generate' | 'review' | 'mutate' | 'graph' | 'times' | 'program'
+export type JobKind = 'verify' | 'test' | 'build' | 'check' | 'generate' | 'review' | 'mutate' | 'graph' | 'times' | 'refine' | 'program'
 
 // What a program does while it runs, as it wrote it.
 export interface Followed {

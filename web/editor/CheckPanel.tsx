@@ -6,6 +6,7 @@ import { words } from '../words'
 import { Icon } from './icons'
 import { MARKED, Marked } from './Marked'
 import { PROGRAM_LINES, ProgramResult, latest } from './ProgramResult'
+import { REFINEMENT, Refined, refinementOf } from './Refined'
 import { TimesTables } from './TimesTable'
 import { type Job, type LinePlace, type ScenarioResult, type ToldFault, type Verdict, faultLines, scenarios, timesOf, verdicts } from './jobs'
 import { useFrame } from './shown'
@@ -110,7 +111,8 @@ function Findings({ studio, job }: { studio: Studio; job: Job }): ReactNode {
   const played = scenarios(job)
   const faults = faultLines(job)
   const times = timesOf(job)
-  const rest = latest(job).filter((line) => typeof line === 'string' || !['verdict', 'scenario', 'summary', 'progress', 'fault', 'times', 'graph-state', ...MARKED, ...PROGRAM_LINES].includes(String(line['type'])))
+  const refined = refinementOf(job)
+  const rest = latest(job).filter((line) => typeof line === 'string' || !['verdict', 'scenario', 'summary', 'progress', 'fault', 'times', 'graph-state', REFINEMENT, ...MARKED, ...PROGRAM_LINES].includes(String(line['type'])))
   return (
     <>
       {job.running && job.job !== 'program' && <p className="faint-note doing">{words.check.doing[job.job]}</p>}
@@ -128,6 +130,7 @@ function Findings({ studio, job }: { studio: Studio; job: Job }): ReactNode {
           ))}
         </ul>
       )}
+      {refined && <Refined found={refined} />}
       <Marked studio={studio} job={job} />
       {times.length > 0 && <TimesTables all={times} />}
       {job.job === 'program' && <ProgramResult job={job} />}

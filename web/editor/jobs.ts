@@ -130,6 +130,8 @@ export class Jobs {
 
   private after(job: Job): void {
     const told = this.findings(job)
+    // Two runs side by side: too much for a low panel.
+    if (job.job === 'refine' && job.code === 1) this.studio.store.set({ tall: true })
     const marks = this.studio.marks.texts(job)
     const all = (found: Map<string, Fault[]>): void => {
       for (const [uri, faults] of marks) found.set(uri, [...(found.get(uri) ?? []), ...faults])

@@ -1,6 +1,6 @@
-// Colours of AsmetaL, Avalla and chart texts in the editor, by their words alone.
+// Colours of AsmetaL, Avalla, chart and coupling texts in the editor, by their words alone.
 //
-// Owns: a stream tokenizer for the three, and the styles of its tokens. What a name stands for, only the language server knows.
+// Owns: a stream tokenizer for the four, and the styles of its tokens. What a name stands for, only the language server knows.
 
 import { HighlightStyle, StreamLanguage, type StringStream, syntaxHighlighting } from '@codemirror/language'
 import type { Extension } from '@codemirror/state'
@@ -35,6 +35,8 @@ interface State {
   begun: boolean
 }
 
+const COUPLING = words('abstract concrete couple same segment diagrams variant fair free input allow waiting overflow')
+
 const STOPS = words('enter exit yes no')
 
 // Within the braces of a link, a chart holds AsmetaL. Names may be words of charts: in a path, `read` is a name.
@@ -53,6 +55,7 @@ function chartWord(stream: StringStream, text: string, state: State): string {
 function word(stream: StringStream, text: string, kind: Kind, state: State): string | null {
   if (kind === 'chart' && state.braces === 0) return chartWord(stream, text, state)
   if (LITERALS.has(text)) return 'atom'
+  if (kind === 'coupling' && COUPLING.has(text)) return 'keyword'
   if (CONTROL.has(text) || DECLARING.has(text)) return 'keyword'
   if (kind === 'scenario' && SCENARIO.has(text)) return 'keyword'
   if (/^(r|inv|ctlSpec|ltlSpec)_/.test(text)) return 'labelName'
@@ -106,7 +109,7 @@ function language(kind: Kind): StreamLanguage<State> {
   })
 }
 
-const LANGUAGES = { model: language('model'), scenario: language('scenario'), chart: language('chart') }
+const LANGUAGES = { model: language('model'), scenario: language('scenario'), chart: language('chart'), coupling: language('coupling') }
 
 const STYLE = HighlightStyle.define([
   { tag: tags.keyword, color: 'var(--code-keyword)' },
@@ -124,7 +127,7 @@ const STYLE = HighlightStyle.define([
 export const styles: Extension = syntaxHighlighting(STYLE)
 
 export function coloured(kind: Kind): Extension {
-  const known = kind === 'model' || kind === 'scenario' || kind === 'chart' ? LANGUAGES[kind] : null
+  const known = kind === 'report' || kind === 'verification' ? null : LANGUAGES[kind]
   return [known ?? [], styles]
 }
 

@@ -5,6 +5,7 @@ declare module '*/report/src/html/draw.js' {
   export interface LaneRun {
     readonly shown: number
     readonly window: number
+    readonly charts?: readonly unknown[]
   }
   export interface LaneDrawing {
     readonly viewOf: unknown
@@ -28,4 +29,10 @@ declare module '*/report/src/html/explore.js' {
     picked?(tick: number): void
   }
   export function explore(root: Document | ShadowRoot, run: LaneRun, drawing: LaneDrawing, heard: Heard): Explored
+}
+
+declare module '*/report/src/html/charts.js' {
+  import type { LaneDrawing, LaneRun } from '*/report/src/html/draw.js'
+  import type { Explored } from '*/report/src/html/explore.js'
+  export function lightCharts(root: Document | ShadowRoot, run: LaneRun, drawing: LaneDrawing, explored: Explored): void
 }

@@ -45,6 +45,8 @@ export interface StudioState {
   active: string | null
   layout: Layout
   panel: Panel | null
+  // The results need more room than the panel has.
+  tall: boolean
   // The text beside a chart: its own, or its model's.
   beside: 'chart' | 'model'
   faults: ReadonlyMap<string, Fault[]>
@@ -135,6 +137,7 @@ export class Studio {
     active: null,
     layout: 'both',
     panel: null,
+    tall: false,
     beside: 'chart',
     faults: new Map(),
     notice: null,

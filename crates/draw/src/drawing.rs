@@ -114,3 +114,17 @@ impl Pictures for Page {
         Ok(svg::part(&picture, &drawing.description(), prefix, class))
     }
 }
+
+/// The same for a page that defines the palette's colours as variables.
+#[derive(Debug, Clone, Copy)]
+pub struct Embedded;
+
+impl Pictures for Embedded {
+    fn style(&self, class: &str) -> String {
+        style::css_of(&format!(".{class} "), true, palette::named)
+    }
+
+    fn part(&self, subject: Subject<'_>, prefix: &str, class: &str) -> Result<String, NotDrawn> {
+        Page.part(subject, prefix, class)
+    }
+}

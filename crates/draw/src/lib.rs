@@ -23,7 +23,7 @@ mod style;
 mod svg;
 mod words;
 
-pub use drawing::{Drawing, Page, Still, drawings};
+pub use drawing::{Drawing, Embedded, Page, Still, drawings};
 pub use elk::LayoutFault;
 pub use notation::{Notation, export};
 pub use picture::{Detail, Figure, Label, Line, Picture, Placed};

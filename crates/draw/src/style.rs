@@ -25,18 +25,23 @@ const MONO: &str = "ui-monospace,Menlo,Consolas,Cousine,'Liberation Mono',monosp
 /// The rules of a drawing, all of them under a selector (which ends in a blank) or under none; those of composite states if there are
 /// any.
 pub fn css(theme: Theme, under: &str, nested: bool) -> String {
+    css_of(under, nested, |sheet| match theme {
+        Theme::Light => painted(sheet, Paper::Light),
+        Theme::Dark => painted(sheet, Paper::Dark),
+        Theme::Auto => {
+            let (light, dark) = (painted(sheet, Paper::Light), painted(sheet, Paper::Dark));
+            format!("{light}@media(prefers-color-scheme:dark){{{dark}}}")
+        }
+    })
+}
+
+/// The same, with colours by their names made what they are.
+pub fn css_of(under: &str, nested: bool, paint: impl Fn(&str) -> String) -> String {
     let mut css = String::new();
     forms(&mut css, under);
     let mut sheet = String::new();
     colours(&mut sheet, under, nested);
-    match theme {
-        Theme::Light => css.push_str(&painted(&sheet, Paper::Light)),
-        Theme::Dark => css.push_str(&painted(&sheet, Paper::Dark)),
-        Theme::Auto => {
-            css.push_str(&painted(&sheet, Paper::Light));
-            let _ = write!(css, "@media(prefers-color-scheme:dark){{{}}}", painted(&sheet, Paper::Dark));
-        }
-    }
+    css.push_str(&paint(&sheet));
     css
 }
 

@@ -238,8 +238,7 @@ pub(crate) fn refutation(product: &mut Product<'_>, solution: &Solution) -> Refu
         let (state, _) = telling.product.pairs[pair as usize];
         match at {
             None => {
-                let fitting = telling.product.initial.iter().find(|(_, other, _)| *other == state).copied();
-                if let Some((_, state, start)) = fitting {
+                if let Some(start) = telling.product.begun_in(state, end.reads) {
                     telling.begin(ABSTRACT, state, start);
                 }
             }
@@ -347,7 +346,7 @@ pub(crate) fn breaks(product: &mut Product<'_>, broken: &Broken) -> Refutation {
     let (_, state, start) = product.begun[broken.begun];
     let mut telling = Telling { product, runs: Default::default(), segments: Vec::new() };
     telling.begin(CONCRETE, state, start);
-    if let Some((_, state, start)) = telling.product.initial.first().copied() {
+    if let Some((state, start)) = telling.product.beside(broken.begun) {
         telling.begin(ABSTRACT, state, start);
     }
     for (from, made) in &broken.steps {

@@ -448,6 +448,32 @@ impl<'c> Product<'c> {
         found
     }
 
+    /// How the abstract machine begins in a state, with these inputs if it can.
+    pub fn begun_in(&self, state: StateId, reads: ReadsId) -> Option<Start> {
+        let reads = self.readings.get(reads);
+        let fits = |label: LabelId| fitting(self.inputs.entries(label), reads, &[], &mut BTreeMap::new()).is_some();
+        let mut all = self.initial.iter().filter(|(_, other, _)| *other == state);
+        let fitting = all.clone().find(|(label, ..)| fits(*label));
+        fitting.or_else(|| all.next()).map(|(.., start)| *start)
+    }
+
+    /// An initial state of the abstract machine that corresponds to the concrete one of this place.
+    pub fn beside(&self, begun: usize) -> Option<(StateId, Start)> {
+        let Node::Begins(all) = &self.nodes[self.root as usize] else { return None };
+        let mut open = vec![all[begun]];
+        while let Some(node) = open.pop() {
+            match &self.nodes[node as usize] {
+                Node::Answers(end) => {
+                    let (pair, _) = end.answers.first()?;
+                    let (state, _) = self.pairs[*pair as usize];
+                    return Some((state, self.begun_in(state, end.reads)?));
+                }
+                node => open.extend(node.behind().iter().rev()),
+            }
+        }
+        None
+    }
+
     /// The runs of the abstract machine in a diagram, of at most so many steps.
     pub fn abstract_runs(&mut self, from: StateId, reads: ReadsId, most: u32) -> Result<AbstractRuns, Stopped> {
         let mut found = AbstractRuns::default();

@@ -32,7 +32,9 @@ mod track;
 
 pub use builder::{ReportBuilder, SHOWN_TICKS};
 pub use flow::{Flow, Journey};
-pub use html::{LiveTimeline, render_html, render_mutation, render_program, render_refinement, render_timeline};
+pub use html::{
+    LivePart, render_html, render_mutation, render_program, render_refinement, render_refinement_part, render_timeline,
+};
 pub use levels::Levels;
 pub use mutation::{Fate, JudgedMutant, MutatedFile, MutationAnalysis};
 pub use program::{ChannelAge, ClosedLoop, Held, Joint, Program, ProgramRun, TaskTiming, View};

@@ -3,6 +3,7 @@
 //! In: a report with the words for its runs. Out: [`Refinement`]: the verdict, the extent, where it fails both runs with their diagrams.
 
 use groundstate::refine::{ABSTRACT, CONCRETE, Ended, Instance, Refutation, Report, SIDES, Vacuous, Verdict, Why};
+use groundstate::report::LivePart;
 use groundstate::tell::{Refinements, Standing};
 use serde::Serialize;
 
@@ -55,6 +56,21 @@ pub struct Refinement {
     /// What solvers looked at of runs from the initial states: with `bmc`, and with `induction` where a proof fails at an obligation.
     #[serde(skip_serializing_if = "Option::is_none")]
     bmc: Option<RunsLine>,
+    /// With `--page -`: the sections that show where it fails.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    page: Option<PagePart>,
+}
+
+/// A part of a page, to be put into another one that has the scripts of a report's page.
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+struct PagePart {
+    /// The sections, as HTML. Names and strings of the models are escaped.
+    markup: String,
+    /// The run as the scripts read it; null if there is nothing to draw.
+    run: serde_json::Value,
+    /// The style sheet, for a tree of its own; colours are the variables of the palette.
+    style: String,
 }
 
 /// What a property of the abstract machine is in the concrete one.
@@ -166,7 +182,7 @@ fn is_zero(count: &usize) -> bool {
 
 impl Refinement {
     /// The result of a check.
-    pub fn new(words: &Refinements<'_>, report: &Report) -> Refinement {
+    pub fn new(words: &Refinements<'_>, report: &Report, page: Option<LivePart>) -> Refinement {
         let (verdict, reasons, refutation) = match &report.verdict {
             Verdict::Refines => ("refines", Vec::new(), None),
             Verdict::DoesNot(refutation) => {
@@ -241,6 +257,11 @@ impl Refinement {
             runs: refutation.map(|refutation| RunPair::new(words, refutation)),
             proof: report.proof.as_ref().map(|proof| ProofLine::new(words, proof)),
             bmc: report.runs.as_ref().map(|runs| RunsLine::new(words, runs)),
+            page: page.map(|LivePart { markup, run, style }| PagePart {
+                markup,
+                run: serde_json::from_str(&run).unwrap_or_default(),
+                style,
+            }),
         }
     }
 }

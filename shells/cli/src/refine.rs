@@ -7,7 +7,8 @@ use std::collections::BTreeMap;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use ::report::Fact;
+use ::report::{Fact, LivePart, RefinementCheck, render_refinement, render_refinement_part};
+use chart::Pictures;
 use clap::{Args, ValueEnum};
 use groundstate::inputs::bound;
 use groundstate::job::{self, Asked, Cancel, RefineEvent};
@@ -81,7 +82,8 @@ pub struct Arguments {
     /// Write both runs of a refutation into this folder, as abstract.avalla and concrete.avalla
     #[arg(long, value_name = "FOLDER")]
     counterexample: Option<PathBuf>,
-    /// Write a page (HTML): the verdict, both runs of a refutation as timelines and charts side by side, the part of the coupling that fails
+    /// Write a page (HTML): the verdict, both runs of a refutation as timelines and charts side by side, the part of the coupling that
+    /// fails; with --format json, `-` puts its sections into the object
     #[arg(long, value_name = "FILE.html")]
     page: Option<PathBuf>,
 }
@@ -106,6 +108,12 @@ struct Question {
 /// Runs the command.
 pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     fits_method(arguments)?;
+    if arguments.page.as_deref() == Some(Path::new("-")) && !shell.json() {
+        return Err(Failure::usage_with_help(
+            "a page goes into a file",
+            "name it, `--page FILE.html`; or add --format json",
+        ));
+    }
     let question = match question(shell, arguments)? {
         Ok(question) => question,
         Err(exit) => return Ok(exit),
@@ -191,11 +199,19 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     if let (Some(folder), Some(proof)) = (&arguments.obligations, &report.proof) {
         write_obligations(folder, proof)?;
     }
-    tell(shell, &words, &report)?;
+    let is_inline = arguments.page.as_deref() == Some(Path::new("-"));
+    let mut part = None;
+    if is_inline {
+        let Some(check) = page_of(shell, &question.models, &words, &report, &draw::Embedded)? else {
+            return Ok(Exit::World);
+        };
+        part = Some(render_refinement_part(&check));
+    }
+    tell(shell, &words, &report, part)?;
     if let (Some(folder), Verdict::DoesNot(refutation)) = (&arguments.counterexample, &report.verdict) {
         write_scenarios(shell, folder, &question.models, &words, refutation)?;
     }
-    if let Some(path) = &arguments.page
+    if let Some(path) = arguments.page.as_ref().filter(|_| !is_inline)
         && !write_page(shell, path, &question.models, &words, &report)?
     {
         return Ok(Exit::World);
@@ -395,12 +411,12 @@ fn no_report(shell: &mut Shell, trouble: &Trouble, models: [&Loaded; 2]) -> Resu
     Ok(if matches!(trouble, Trouble::Fault(..)) { Exit::Model } else { Exit::Unknown })
 }
 
-fn tell(shell: &mut Shell, words: &Refinements<'_>, report: &Report) -> Result<(), Failure> {
+fn tell(shell: &mut Shell, words: &Refinements<'_>, report: &Report, page: Option<LivePart>) -> Result<(), Failure> {
     if let Verdict::Vacuous(vacuous) = &report.verdict {
         shell.diagnostic(words.coupling.sources(), &words.vacuous(vacuous))?;
     }
     if shell.json() {
-        return shell.object(&wire::Refinement::new(words, report));
+        return shell.object(&wire::Refinement::new(words, report, page));
     }
     if shell.talks() || !matches!(report.verdict, Verdict::Refines) {
         write!(shell.out(), "{}", words.report(report))?;
@@ -408,22 +424,22 @@ fn tell(shell: &mut Shell, words: &Refinements<'_>, report: &Report) -> Result<(
     Ok(())
 }
 
-/// Writes the page of the check; if what stands beside a model has faults, shows them and returns `false`.
-fn write_page(
+/// The page of the check; if what stands beside a model has faults, shows them and returns `None`.
+fn page_of(
     shell: &mut Shell,
-    path: &Path,
     models: &[PathBuf; 2],
     words: &Refinements<'_>,
     report: &Report,
-) -> Result<bool, Failure> {
+    pictures: &dyn Pictures,
+) -> Result<Option<RefinementCheck>, Failure> {
     let paths = models.each_ref().map(|path| path.display().to_string());
     let paths = [paths[ABSTRACT].as_str(), paths[CONCRETE].as_str()];
     let limits = shell.global.limits.uninterrupted();
-    let mut check = match refinement_page(words, report, paths, &mut shell.disk(), &draw::Page, &limits) {
+    let mut check = match refinement_page(words, report, paths, &mut shell.disk(), pictures, &limits) {
         Ok(check) => check,
         Err(NoPage::Faulty(sources, faults)) => {
             shell.diagnostics(&sources, &faults)?;
-            return Ok(false);
+            return Ok(None);
         }
         Err(NoPage::Unread(path, absent)) => return Err(Failure::usage(absent.told(&path))),
         Err(NoPage::NotDrawn(fault)) => return Err(Failure::usage(fault.to_string())),
@@ -436,7 +452,19 @@ fn write_page(
         fact("Fingerprint of the concrete model", groundstate::fingerprint(&words.models[CONCRETE].sources)),
         fact("Groundstate", env!("CARGO_PKG_VERSION").to_string()),
     ];
-    write_text(path, &::report::render_refinement(&check))?;
+    Ok(Some(check))
+}
+
+/// Writes the page into a file; whether there was one.
+fn write_page(
+    shell: &mut Shell,
+    path: &Path,
+    models: &[PathBuf; 2],
+    words: &Refinements<'_>,
+    report: &Report,
+) -> Result<bool, Failure> {
+    let Some(check) = page_of(shell, models, words, report, &draw::Page)? else { return Ok(false) };
+    write_text(path, &render_refinement(&check))?;
     if shell.talks() {
         writeln!(shell.out(), "wrote {}", path.display())?;
     }

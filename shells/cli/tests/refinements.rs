@@ -53,6 +53,83 @@ fn couplings_are_checked_and_are_nothing_else() {
     check(&["fmt", "--check", "."], 0, "");
 }
 
+/// The page has both runs on one axis, the charts of both machines, and the part of the coupling that fails; whatever the verdict, it says so.
+#[test]
+fn a_page_shows_both_runs_and_both_charts() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).expect("it is written");
+    let chart = |name: &str, states: &str, paths: &str| {
+        format!(
+            "chart {name}\nmachine lift \"{name}\" {{r_lift}}\ncontrol floor\ninitial state ground \"Ground\"\n{states}\
+             state top \"Top\"\nguard call \"Call\" {{called}}\nguard leave \"Empty\" {{empty}}\n{paths}\
+             top -> leave yes -> ground\nendmachine\n"
+        )
+    };
+    let model = |name: &str, literals: &str, rules: &str| {
+        format!(
+            "asm {name}\nimport StandardLibrary\nsignature:\nenum domain Floor = {{{literals}}}\ncontrolled floor: Floor\n\
+             controlled light: Boolean\nmonitored called: Boolean\nmonitored empty: Boolean\ndefinitions:\nrule r_lift = par\n\
+             {rules}\nif floor = TOP then if empty then par floor := GROUND light := false endpar endif endif\nendpar\n\
+             main rule r_Main = r_lift[]\ndefault init s0:\nfunction floor = GROUND\nfunction light = false\n"
+        )
+    };
+    let at_ground =
+        |to: &str| format!("if floor = GROUND then if called then par floor := {to} light := true endpar endif endif");
+    write("Lift.chart", &chart("Lift", "", "ground -> call yes -> top\n"));
+    write("Lift.asm", &model("Lift", "GROUND | TOP", &at_ground("TOP")));
+    write(
+        "Slow.chart",
+        &chart("Slow", "state moving \"Moving\"\n", "ground -> call yes -> moving\nmoving -> leave no -> top\n"),
+    );
+    let moving = "if floor = MOVING then if not empty then floor := TOP endif endif";
+    write("Slow.asm", &model("Slow", "GROUND | MOVING | TOP", &format!("{}\n{moving}", at_ground("MOVING"))));
+    let couple = "couple (abstract.floor = TOP) = (concrete.floor";
+    write("Wrong.refine", &format!("{couple} = TOP); same light; allow waiting;"));
+    write("Right.refine", &format!("{couple} != GROUND); same light; free abstract.empty; allow waiting;"));
+    write("Begin.refine", "same light; couple abstract.floor = TOP and concrete.floor = TOP;");
+    let refine = |coupling: &str, page: &str, more: &[&str], code: i32| -> (String, String) {
+        let mut arguments = vec!["refine", "Lift.asm", "Slow.asm", "--with", coupling, "--page", page];
+        arguments.extend(more);
+        let run = Command::new(env!("CARGO_BIN_EXE_groundstate")).args(arguments).current_dir(folder.path()).output();
+        let run = run.expect("it starts");
+        let said = format!("{}{}", String::from_utf8_lossy(&run.stdout), String::from_utf8_lossy(&run.stderr));
+        assert_eq!(run.status.code(), Some(code), "{coupling}: {said}");
+        (said, std::fs::read_to_string(folder.path().join(page)).unwrap_or_default())
+    };
+    let (said, page) = refine("Wrong.refine", "wrong.html", &[], 1);
+    assert!(said.ends_with("wrote wrong.html\n"), "{said}");
+    for text in [
+        "Does not refine: nothing matches step 1 of the concrete machine.",
+        "<code>abstract.light = concrete.light</code> is false",
+        "abstract: Lift",
+        "concrete: Slow",
+        "id=\"abstract-chart-0-",
+        "id=\"concrete-chart-0-",
+        "data-first=\"1\"",
+        ">abstract.floor<",
+        ">concrete.light<",
+        "<th scope=\"row\"><a class=\"go\" href=\"#timeline\" data-at=\"1\">?:1</a></th>",
+        "floor: GROUND -&gt; MOVING",
+    ] {
+        assert!(page.contains(text), "{text}");
+    }
+    let (_, page) = refine("Right.refine", "right.html", &[], 0);
+    assert!(page.contains("Refines.") && page.contains("observed   ") && !page.contains("id=\"timeline\""));
+    let (_, page) = refine("Begin.refine", "begin.html", &[], 1);
+    assert!(
+        page.contains("Says nothing: no initial states correspond") && page.contains("the abstract machine begins")
+    );
+    // The sections alone, for a page of one's own.
+    let (said, _) = refine("Wrong.refine", "-", &["--format", "json"], 1);
+    assert!(said.contains("\"page\":{\"markup\":\"<section id=\\\"end\\\"") && said.contains("\"charts\":["), "{said}");
+    let (said, _) = refine("Right.refine", "-", &[], 2);
+    assert!(said.contains("a page goes into a file"), "{said}");
+    // What stands beside a model is looked at, and its faults are told.
+    write("Slow.report.yaml", "tasks:\n  each: { a: { name: a } }\n  terms: { activity: \"nothing({})\" }\n");
+    let (said, _) = refine("Wrong.refine", "none.html", &[], 2);
+    assert!(said.contains("nothing") && said.contains("Slow.report.yaml"), "{said}");
+}
+
 #[test]
 fn each_wrong_sibling_is_refuted_and_its_runs_are_made_again() {
     let runs = tempfile::tempdir().expect("a temporary folder");

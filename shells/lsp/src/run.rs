@@ -10,7 +10,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use groundstate::machine::{Limits, Show, Value as ModelValue};
-use groundstate::report::{LiveTimeline, render_timeline};
+use groundstate::report::{LivePart, render_timeline};
 use groundstate::reporting::Watched;
 use groundstate::session::{Heard, Scene, Session, SessionOptions, Waits};
 use groundstate::{Kind, Overlay};
@@ -263,7 +263,7 @@ impl Open {
             return Err(failed(reason.as_str()));
         }
         let Some(report) = self.session.timeline() else { return Ok(Value::Null) };
-        let LiveTimeline { markup, run, style } = render_timeline(&report);
+        let LivePart { markup, run, style } = render_timeline(&report);
         let run: Value =
             serde_json::from_str(&run).map_err(|error| Refused::new(ErrorCode::InternalError, error.to_string()))?;
         let (steps, first) = (report.steps(), u64::from(!report.from_initial));

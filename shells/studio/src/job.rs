@@ -176,7 +176,8 @@ pub fn words(job: &str, path: &str, options: &Value) -> Result<Vec<String>, Stri
         "review" if kind == Some(Kind::Model) => &["review"],
         "mutate" if is_chart || kind == Some(Kind::Model) => &["mutate"],
         "graph" if kind == Some(Kind::Model) => &["graph"],
-        "verify" | "test" | "build" | "generate" | "review" | "times" | "mutate" | "graph" => {
+        "refine" if kind == Some(Kind::Coupling) => &["refine"],
+        "verify" | "test" | "build" | "generate" | "review" | "times" | "mutate" | "graph" | "refine" => {
             let what = match job {
                 "times" => "time",
                 "graph" => "draw a state graph of",
@@ -204,6 +205,8 @@ pub fn words(job: &str, path: &str, options: &Value) -> Result<Vec<String>, Stri
             // One word: what begins with `-` is a term.
             words.extend(terms.take(TERMS).map(|term| format!("--where={term}")));
         }
+        // What shows where it fails comes with it.
+        "refine" => words.extend(["--page", "-"].map(str::to_string)),
         "test" if options["coverage"].as_bool() == Some(true) => words.push("--coverage".to_string()),
         _ => {}
     }
@@ -411,6 +414,11 @@ mod tests {
         assert_eq!(check("times", "a.chart", json!({})), Ok("chart times ./a.chart --within . --format json".into()));
         assert_eq!(check("times", "a.asm", json!({})), Err("there is nothing to time in a.asm".into()));
         assert_eq!(check("test", "", json!({})), Ok("test ./ --within . --format json".into()));
+        assert_eq!(
+            check("refine", "A.refine", json!({ "page": "/etc/x" })),
+            Ok("refine ./A.refine --page - --within . --format json".into())
+        );
+        assert_eq!(check("refine", "a.asm", json!({})), Err("there is nothing to refine in a.asm".into()));
         assert_eq!(
             check("graph", "a.asm", json!({ "where": ["-x > 1", 3, "--help"], "max": 9 })),
             Ok("graph ./a.asm --where=-x > 1 --where=--help --within . --format json".into())

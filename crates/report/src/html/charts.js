@@ -1,9 +1,10 @@
-// Lights in the charts where each machine is at a moment of the run. SYNC(run data)
-function lightCharts(run, drawing, timeline) {
+// Lights in the charts where each machine is at a moment of the run. The page of a report and the studio use it. SYNC(run data)
+function lightCharts(root, run, drawing, timeline) {
   const { px, escaped, spans, lower, timed, textWidth } = drawing;
   let moment = null;
-  const slider = document.getElementById("tick"), now = document.getElementById("now"), play = document.getElementById("play");
-  const boxes = [...document.querySelectorAll(".chartbox")].map((box, index) => {
+  const by = (id) => root.getElementById(id);
+  const slider = by("tick"), now = by("now"), play = by("play");
+  const boxes = [...root.querySelectorAll(".chartbox")].map((box, index) => {
     const { named, lights } = run.charts[index], svg = box.querySelector(".chart"), parts = new Map();
     for (const part of svg.querySelectorAll("[data-shape]")) parts.set(part.dataset.shape, part);
     for (const light of lights) Object.assign(light, spans(light.d));
@@ -91,7 +92,7 @@ function lightCharts(run, drawing, timeline) {
     requestAnimationFrame(run_on);
   });
   slider.addEventListener("input", () => { stop(); set(Number(slider.value)); });
-  for (const button of document.querySelectorAll("[data-step]")) {
+  for (const button of root.querySelectorAll("[data-step]")) {
     button.addEventListener("click", () => { stop(); set(moment + Number(button.dataset.step)); });
   }
   timeline.pointed.push((tick) => { stop(); set(tick); });
@@ -109,7 +110,7 @@ function lightCharts(run, drawing, timeline) {
     svg.removeAttribute("height");
     svg.style.width = `${svg.viewBox.baseVal.width}px`;
   }
-  document.getElementById("moment").hidden = false;
+  by("moment").hidden = false;
   const { first } = slider.dataset;
   set(first === undefined ? Math.min(Math.floor(run.window / 3), run.shown - 1) : Number(first));
 }

@@ -16,7 +16,7 @@ mod verdicts;
 
 pub use mutation::render_mutation;
 pub use program::render_program;
-pub use refinement::render_refinement;
+pub use refinement::{render_refinement, render_refinement_part};
 
 use crate::markup::{Text, put};
 use crate::report::Report;
@@ -64,23 +64,28 @@ pub fn render_html(report: &Report) -> String {
     out
 }
 
-/// A timeline to be put into another page, which runs the scripts `draw.js` and `explore.js` on it.
+/// A part of a page to be put into another page, which runs the scripts `draw.js`, `explore.js` and, where there are charts, `charts.js` on
+/// it.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct LiveTimeline {
-    /// The section, with the first window as a still drawing.
+pub struct LivePart {
+    /// The sections, with the first window of a timeline as a still drawing.
     pub markup: String,
-    /// The run, as the scripts read it: JSON.
+    /// The run, as the scripts read it: JSON; `null` if there is nothing to draw.
     pub run: String,
     /// The style sheet, for a tree of its own (a shadow root); colours are the variables of the palette, `var(--ink)`.
     pub style: String,
 }
 
 /// The timeline of a report, without its page.
-pub fn render_timeline(report: &Report) -> LiveTimeline {
+pub fn render_timeline(report: &Report) -> LivePart {
     let mut markup = String::new();
     lanes::timeline_section(&mut markup, report);
-    let style = format!("{}{}", include_str!("page.css"), crate::svg::svg_css_of(palette::named));
-    LiveTimeline { markup, run: data::run_data(report), style }
+    LivePart { markup, run: data::run_data(report), style: part_css() }
+}
+
+/// The style sheet of a part of a page.
+fn part_css() -> String {
+    format!("{}{}", include_str!("page.css"), crate::svg::svg_css_of(palette::named))
 }
 
 /// The style sheet of every page.

@@ -11,4 +11,4 @@ function follow() {
 }
 addEventListener("hashchange", follow);
 follow();
-if (typeof lightCharts === "function") lightCharts(run, drawing, timeline);
+if (typeof lightCharts === "function") lightCharts(document, run, drawing, timeline);

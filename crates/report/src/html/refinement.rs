@@ -3,7 +3,7 @@
 //!
 //! Without the script all of it can be read; the script moves through the runs. INVARIANT: what is not known is shown as such.
 
-use crate::html::{charts, data, figures, lanes, open, scripts, section, verdicts};
+use crate::html::{LivePart, charts, data, figures, lanes, open, part_css, scripts, section, verdicts};
 use crate::markup::{Text, put};
 use crate::refinement::{Judgement, RefinementCheck};
 
@@ -22,12 +22,7 @@ pub fn render_refinement(check: &RefinementCheck) -> String {
     open(&mut out, &format!("{other} refines {one}?"), &format!("{}{pictures}", include_str!("refinement.css")));
     header(&mut out, check);
     out.push_str("<main>\n");
-    failing(&mut out, check);
-    if let Some(runs) = runs.filter(|runs| runs.has_lanes()) {
-        lanes::timeline_section(&mut out, runs);
-        charts::charts(&mut out, runs, Some(runs.shown.max(1) - 1));
-    }
-    diagrams(&mut out, check);
+    sections(&mut out, check);
     told(&mut out, check);
     verdicts::list_facts(&mut out, &check.facts);
     out.push_str("</main>\n<footer>Written by Groundstate. This page is complete: it loads nothing.</footer>\n");
@@ -37,6 +32,26 @@ pub fn render_refinement(check: &RefinementCheck) -> String {
     }
     out.push_str("</body>\n</html>\n");
     out
+}
+
+/// The sections that show where a refinement fails, without their page.
+pub fn render_refinement_part(check: &RefinementCheck) -> LivePart {
+    let mut markup = String::new();
+    sections(&mut markup, check);
+    let runs = check.runs.as_ref().filter(|runs| runs.has_lanes());
+    let pictures = runs.map_or("", |runs| &runs.chart_style);
+    let style = format!("{}{}{pictures}", part_css(), include_str!("refinement.css"));
+    LivePart { markup, run: runs.map_or("null".to_string(), data::run_data), style }
+}
+
+/// Where it fails: the part of the coupling, both runs as lanes, pictures and words.
+fn sections(out: &mut String, check: &RefinementCheck) {
+    failing(out, check);
+    if let Some(runs) = check.runs.as_ref().filter(|runs| runs.has_lanes()) {
+        lanes::timeline_section(out, runs);
+        charts::charts(out, runs, Some(runs.shown.max(1) - 1));
+    }
+    diagrams(out, check);
 }
 
 fn header(out: &mut String, check: &RefinementCheck) {
