@@ -10,10 +10,8 @@ use program::{Expression, FunctionId, Program, Property};
 use rustc_hash::FxHashMap;
 use syntax::{Diagnostic, FileId, Sources, Span};
 
-use crate::CONCRETE;
 use crate::diagram::Diagrams;
 use crate::joint::Joint;
-use crate::report::{Assumed, From};
 
 /// A part of the coupling relation.
 #[derive(Debug, Clone)]
@@ -127,13 +125,12 @@ impl Coupling {
         self.variant.as_ref().map(|(text, _)| in_a_line(text))
     }
 
-    /// A condition of fairness as what is assumed.
-    pub(crate) fn fairness(&self, fair: usize) -> Assumed {
-        let (name, span) = match &self.fair[fair].term {
+    /// A condition of fairness in words, and where it is said.
+    pub(crate) fn fairness(&self, fair: usize) -> (String, Span) {
+        match &self.fair[fair].term {
             FairTerm::Said(text, _) => (format!("again and again: {}", in_a_line(text)), start(self.file)),
             FairTerm::Own(justice) => (justice.name.clone(), justice.span),
-        };
-        Assumed { side: CONCRETE, name, from: From::Text(span) }
+        }
     }
 
     /// How many conjuncts there are.

@@ -14,7 +14,6 @@ mod computed;
 mod coupling;
 mod determined;
 mod diagram;
-mod endless;
 mod evidence;
 mod fair;
 mod fault;

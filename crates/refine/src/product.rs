@@ -8,6 +8,8 @@
 //! concrete step of the diagram; an input at which no concrete step looked has any value, one for the whole diagram, and each must be
 //! answered.
 
+mod endless;
+
 use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 
@@ -17,11 +19,11 @@ use program::FunctionId;
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::coupling::{FairTerm, number_of_fair};
-use crate::endless::Endless;
 use crate::judge::Judge;
 use crate::readings::{Readings, Reads, ReadsId};
 use crate::side::{Goal, Inputs, LabelId, Move, Side, StateId, Stopped, Unmade};
 use crate::{ABSTRACT, CONCRETE};
+use endless::Endless;
 
 /// The number of a pair.
 pub(crate) type PairId = u32;

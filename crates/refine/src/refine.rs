@@ -211,7 +211,10 @@ fn attempt(
             }
         }
     }
-    assumed.extend(fair.into_iter().map(|fair| coupling.fairness(fair)));
+    assumed.extend(fair.into_iter().map(|fair| {
+        let (name, span) = coupling.fairness(fair);
+        Assumed { side: CONCRETE, name, from: From::Text(span) }
+    }));
     let idle = product.sides[ABSTRACT].steps.1 == 0;
     let properties = match verdict {
         Verdict::Refines => preserved(&mut product, &parents),

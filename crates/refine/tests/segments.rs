@@ -11,7 +11,7 @@ use refine::{ABSTRACT, CONCRETE, Ended, Verdict, Why};
 use testkit::Random;
 
 use crate::naive::{Fair, Graph, Pairs, State, again, changed, graph, has_fair_round, machine_of, rule};
-use crate::small::report;
+use crate::small::{COUNTER, counter, lamp, machine, refuted, report};
 
 /// A diagram has one abstract step and so many concrete ones.
 const LONGEST: usize = 4;
@@ -132,4 +132,33 @@ fn so_it_is_where_runs_are_fair() {
     agree(coupling, &[|go, _| go, |_, (n, _)| n != 0], true);
     // Within a segment the flag is set.
     agree("same n; segment not concrete.h; diagrams 1:1..4; fair not concrete.h;", &[|_, (_, h)| !h], false);
+}
+
+#[test]
+fn a_segment_that_no_diagram_has_is_refuted() {
+    let one = counter("n := (n + 1) mod 4");
+    let refutation = refuted(report(&one, &one, Some("same n; segment true; diagrams 1:2;")));
+    assert!(matches!(refutation.ended, Ended::Unmatched { .. }), "{:?}", refutation.ended);
+}
+
+#[test]
+fn a_segment_that_never_ends_is_refuted_by_its_circle() {
+    let one = counter("n := (n + 1) mod 4");
+    let refutation = refuted(report(&one, &one, Some("same n; segment concrete.n = 7;")));
+    assert_eq!((refutation.ended, refutation.runs[CONCRETE].steps.len()), (Ended::Endless(0), 4));
+    // A long one may end in a longer diagram.
+    let two = machine(COUNTER, "domain N = {0:40}\nmain rule r_Main = n := (n + 1) mod 41", "function n = 0");
+    let found = report(&two, &two, Some("same n; segment concrete.n = 0;"));
+    assert_eq!(found.verdict, Verdict::Unknown(vec![refine::Why::Long(16)]));
+    // Where it ends in each fair run, and maybe late, it is not known.
+    let waits = |fair: &str| {
+        let other = lamp("if pressed then on := not on endif");
+        let coupling = format!("same on; segment concrete.on; diagrams 0..1:1..3; {fair}");
+        report(&lamp("choose $x in {true, false} with true do on := $x"), &other, Some(&coupling))
+    };
+    assert_eq!(refuted(waits("")).ended, Ended::Endless(0));
+    assert!(matches!(waits("fair concrete.on;").verdict, Verdict::Unknown(_)));
+    let of = waits("fair concrete.pressed or not concrete.on;");
+    assert_eq!(of.assumed.len(), 1, "the round meets what is fair");
+    assert_eq!(refuted(of).ended, Ended::Endless(0));
 }

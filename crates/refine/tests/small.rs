@@ -43,9 +43,9 @@ pub fn refuted(report: Report) -> refine::Refutation {
     }
 }
 
-const COUNTER: &str = "domain N subsetof Integer controlled n: N";
+pub const COUNTER: &str = "domain N subsetof Integer controlled n: N";
 
-fn counter(rule: &str) -> Arc<Program> {
+pub fn counter(rule: &str) -> Arc<Program> {
     machine(COUNTER, &format!("domain N = {{0:3}}\nmain rule r_Main = {rule}"), "function n = 0")
 }
 
@@ -446,35 +446,6 @@ fn what_is_undef_is_not_assumed() {
     let assumed = text("choose $x in {0, 1} with true do n := $x", "INVAR n = 0 or m = 0");
     let verdict = report(&one, &assumed, Some("same n;")).verdict;
     assert!(!matches!(verdict, Verdict::DoesNot(_)), "{verdict:?}");
-}
-
-#[test]
-fn a_segment_that_no_diagram_has_is_refuted() {
-    let one = counter("n := (n + 1) mod 4");
-    let refutation = refuted(report(&one, &one, Some("same n; segment true; diagrams 1:2;")));
-    assert!(matches!(refutation.ended, Ended::Unmatched { .. }), "{:?}", refutation.ended);
-}
-
-#[test]
-fn a_segment_that_never_ends_is_refuted_by_its_circle() {
-    let one = counter("n := (n + 1) mod 4");
-    let refutation = refuted(report(&one, &one, Some("same n; segment concrete.n = 7;")));
-    assert_eq!((refutation.ended, refutation.runs[CONCRETE].steps.len()), (Ended::Endless(0), 4));
-    // A long one may end in a longer diagram.
-    let two = machine(COUNTER, "domain N = {0:40}\nmain rule r_Main = n := (n + 1) mod 41", "function n = 0");
-    let found = report(&two, &two, Some("same n; segment concrete.n = 0;"));
-    assert_eq!(found.verdict, Verdict::Unknown(vec![refine::Why::Long(16)]));
-    // Where it ends in each fair run, and maybe late, it is not known.
-    let waits = |fair: &str| {
-        let other = lamp("if pressed then on := not on endif");
-        let coupling = format!("same on; segment concrete.on; diagrams 0..1:1..3; {fair}");
-        report(&lamp("choose $x in {true, false} with true do on := $x"), &other, Some(&coupling))
-    };
-    assert_eq!(refuted(waits("")).ended, Ended::Endless(0));
-    assert!(matches!(waits("fair concrete.on;").verdict, Verdict::Unknown(_)));
-    let of = waits("fair concrete.pressed or not concrete.on;");
-    assert_eq!(of.assumed.len(), 1, "the round meets what is fair");
-    assert_eq!(refuted(of).ended, Ended::Endless(0));
 }
 
 /// Of several conditions those are told that are needed; of two that are enough each, that of the model.
