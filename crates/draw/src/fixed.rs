@@ -144,6 +144,10 @@ fn of_label(label: &Label) -> Area {
     (label.x, label.y, label.x + label.width, label.y + label.height)
 }
 
+fn within(inner: Area, outer: Area) -> bool {
+    inner.0 >= outer.0 && inner.1 >= outer.1 && inner.2 <= outer.2 && inner.3 <= outer.3
+}
+
 fn overlap(a: Area, b: Area) -> f64 {
     (a.2.min(b.2) - a.0.max(b.0)).max(0.0) * (a.3.min(b.3) - a.1.max(b.1)).max(0.0)
 }
@@ -336,7 +340,9 @@ fn link_label(of: usize, link: &str, boxes: &[Placed], labels: &[Label], turned:
     }
     let crowded = |(x, y): (f64, f64)| {
         let own = (x - 2.0, y - 2.0, x + width + 2.0, y + height + 2.0);
-        let others = boxes.iter().map(area).chain(labels.iter().map(of_label));
+        // The frame that the shape lies in leaves room for all that lies there.
+        let around = |shape: &&Placed| shape.figure == Figure::Composite && within(area(&boxes[of]), area(shape));
+        let others = boxes.iter().filter(|shape| !around(shape)).map(area).chain(labels.iter().map(of_label));
         others.map(|other| overlap(own, other)).sum::<f64>()
     };
     let best = spots.into_iter().min_by(|a, b| crowded(*a).total_cmp(&crowded(*b)));
