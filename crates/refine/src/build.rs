@@ -17,7 +17,7 @@ use syntax::{Diagnostic, FileId, Severity, SourceFile, Sources, Span};
 use crate::coupling::{Conjunct, Coupling, Faulty, start};
 use crate::diagram::Diagrams;
 use crate::fault::{bad_coupling, vacuous};
-use crate::joint::{Joint, described, join, joint_name};
+use crate::joint::{Joint, described, growing, join, joint_name};
 use crate::written::{Part, Written, read};
 use crate::{ABSTRACT, CONCRETE, SIDES};
 
@@ -156,7 +156,9 @@ impl Builder {
         for function in one.functions.iter().filter(|function| is_state(function)) {
             let Some(there) = other.find_function(&function.name, function.parameters.len()) else { continue };
             let Some(here) = one.find_function(&function.name, function.parameters.len()) else { continue };
-            if is_state(other.function(there)) && self.other_domain(here, there).is_none() {
+            let grows =
+                [(ABSTRACT, here), (CONCRETE, there)].into_iter().any(|(side, f)| self.grows(side, f, false).is_some());
+            if is_state(other.function(there)) && self.other_domain(here, there).is_none() && !grows {
                 names.insert((function.name.clone(), [here, there]));
             }
         }
@@ -212,6 +214,14 @@ impl Builder {
         }
         for [here, there] in pairs {
             for (side, id) in [(ABSTRACT, here), (CONCRETE, there)] {
+                if let Some(domain) = self.grows(side, id, false) {
+                    let message = format!(
+                        "`{}` has arguments in {domain}, of which the {} machine makes elements: they cannot be compared",
+                        part.text, SIDES[side]
+                    );
+                    let help = "say with `couple` what corresponds, by functions without such arguments";
+                    return self.faults.push(bad_coupling(place, message).with_help(help));
+                }
                 let reader = self.reader(side, id);
                 if self.coupling.programs[side].reads_monitored(&reader) {
                     let message = format!("`{}` is an input, or depends on one; a coupling relates states", part.text);
@@ -356,7 +366,18 @@ impl Builder {
         let file = self.coupling.file;
         let parsed = syntax::parse_term(file, &self.masked(part));
         if parsed.diagnostics.iter().any(|fault| fault.severity == Severity::Error) {
-            self.told(parsed.diagnostics);
+            let mut faults = parsed.diagnostics;
+            // Before the term all is blank: what a term has to begin with is said at its beginning.
+            let begins = ["forall", "exist", "exists"]
+                .iter()
+                .any(|word| part.text.strip_prefix(word).is_some_and(|rest| rest.starts_with(char::is_whitespace)));
+            for fault in faults.iter_mut().filter(|fault| fault.primary.span.start < part.span.start) {
+                fault.primary.span = self.place(part);
+                if begins {
+                    fault.help = Some("a quantifier stands in parentheses: `(forall $x in D with …)`".to_string());
+                }
+            }
+            self.told(faults);
             return None;
         }
         let Some(term) = TermFile::cast(parsed.syntax()).and_then(|file| file.term()) else {
@@ -374,12 +395,40 @@ impl Builder {
             return None;
         }
         match program::lower_term(&mut joint.program, &joint.model, &fragment.item, &fragment.variables) {
-            Ok(formula) => Some(formula),
+            Ok(formula) => self.ranges_over_fixed(&formula).then_some(formula),
             Err(faults) => {
                 self.told(faults);
                 None
             }
         }
+    }
+
+    /// Whether a term goes through the elements of no domain that grows: those that a machine makes are not in the joint model.
+    fn ranges_over_fixed(&mut self, formula: &Expression) -> bool {
+        let program = &self.coupling.joint.program;
+        let mut open = vec![formula.body];
+        while let Some(id) = open.pop() {
+            if let Term::Domain(domain) = program.term(id)
+                && let Some(name) = self.coupling.joint.growing(*domain)
+            {
+                let message = format!("a machine makes elements of {name}, and a coupling does not see them");
+                let fault = bad_coupling(program.term_span(id), message);
+                self.faults.push(fault.with_help(
+                    "let a derived function of the model go through the elements, and name that function here",
+                ));
+                return false;
+            }
+            program.each_child_of_term(id, &mut |child| open.push(child));
+        }
+        true
+    }
+
+    /// The domain of which a machine makes elements, if a function has arguments in such a domain, or with `values` also values.
+    fn grows(&self, side: usize, function: FunctionId, values: bool) -> Option<String> {
+        let program = &self.coupling.programs[side];
+        let function = program.function(function);
+        let domains = function.parameters.iter().chain(values.then_some(&function.codomain));
+        domains.into_iter().find_map(|domain| growing(program, *domain)).map(str::to_string)
     }
 
     /// What a name that is no function may mean.

@@ -294,15 +294,18 @@ fn unmatched(product: &mut Product<'_>, at: Option<PairId>, end: &Answers) -> En
         }
     };
     let mut judged: Vec<(usize, u32, StateId, Vec<usize>)> = Vec::new();
-    for (state, m) in candidates {
+    // An answer that a diagram allows is not hidden by one to the same state that none does.
+    let allows = |product: &Product<'_>, m: u32| at.is_none() || product.judge.coupling.diagrams.allows(m, end.n);
+    let (allowed, others): (Vec<_>, Vec<_>) = candidates.into_iter().partition(|(_, m)| allows(product, *m));
+    for (state, m) in allowed.into_iter().chain(others) {
         if judged.iter().any(|(_, _, other, _)| *other == state) {
             continue;
         }
         let failing = product.judge.failing(&mut product.sides, [state, end.to]);
         judged.push((failing.len(), m, state, failing));
     }
-    // The fewest parts fail; of equals an abstract step is a better try than none.
-    judged.sort_by_key(|(count, m, ..)| (*count, *m == 0, *m));
+    // The fewest parts fail; of equals one that is allowed is a better try, and an abstract step a better one than none.
+    judged.sort_by_key(|(count, m, ..)| (*count, !allows(product, *m), *m == 0, *m));
     judged.truncate(TRIED);
     for (_, m, state, failing) in judged {
         let mut steps = Vec::new();

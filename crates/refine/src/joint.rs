@@ -33,6 +33,46 @@ pub(crate) struct Joint {
     pub bridges: [Bridge; 2],
     /// By function of the joint program: the side and the function there.
     pub of: FxHashMap<FunctionId, (usize, FunctionId)>,
+    /// Domains of which a machine makes elements: the joint model does not have these.
+    growing: BTreeSet<String>,
+}
+
+impl Joint {
+    /// The domain, or a part of it, of which a machine makes elements.
+    pub fn growing(&self, domain: DomainId) -> Option<&str> {
+        let described = self.program.domain(domain);
+        match &described.kind {
+            DomainKind::Abstract { .. } | DomainKind::Concrete { .. } => {
+                self.growing.get(&described.name).map(String::as_str)
+            }
+            DomainKind::Seq(part) | DomainKind::Powerset(part) | DomainKind::Bag(part) => self.growing(*part),
+            DomainKind::Map(from, to) => self.growing(*from).or_else(|| self.growing(*to)),
+            DomainKind::Prod(parts) => parts.iter().find_map(|part| self.growing(*part)),
+            DomainKind::Basic(_)
+            | DomainKind::Enum { .. }
+            | DomainKind::Error
+            | DomainKind::Any
+            | DomainKind::Rule(_) => None,
+        }
+    }
+}
+
+/// The domains of a program that differ between states; of a domain that is made of others, these.
+pub(crate) fn growing(program: &Program, domain: DomainId) -> Option<&str> {
+    let constant = program.constant_domains();
+    let mut open = vec![domain];
+    while let Some(id) = open.pop() {
+        if constant[id.0 as usize] {
+            continue;
+        }
+        match &program.domain(id).kind {
+            DomainKind::Seq(part) | DomainKind::Powerset(part) | DomainKind::Bag(part) => open.push(*part),
+            DomainKind::Map(from, to) => open.extend([*from, *to]),
+            DomainKind::Prod(parts) => open.extend(parts),
+            _ => return Some(&program.domain(id).name),
+        }
+    }
+    None
 }
 
 /// A domain as both sides have it.
@@ -336,7 +376,13 @@ pub(crate) fn join(programs: [&Program; 2], limits: &Limits) -> Result<Joint, St
             }
         }
     }
-    Ok(Joint { model, program, sources, bridges, of })
+    let mut growing = BTreeSet::new();
+    for (side, program) in programs.into_iter().enumerate() {
+        let constant = program.constant_domains();
+        let differing = program.domains.iter().zip(constant).filter(|(_, constant)| !constant);
+        growing.extend(differing.filter_map(|(domain, _)| shapes.called[side].get(&domain.name).cloned()));
+    }
+    Ok(Joint { model, program, sources, bridges, of, growing })
 }
 
 /// The elements of a domain as a model writes them, if they are fixed and can all be written.

@@ -327,8 +327,11 @@ fn searched<'c>(
     Ok(Searched { whys, is_lost, next })
 }
 
-/// Conditions of fairness of which none can be left out, by which a game is won that is won by all. What
-/// the coupling says is left out before what the model says itself.
+/// LIMIT: of so many conditions of fairness every choice is tried.
+const EVERY: usize = 8;
+
+/// Conditions of fairness of which none can be left out, by which a game is won that is won by all: if there are such, those that some
+/// run meets. What the coupling says is left out before what the model says itself.
 fn needed(product: &Product<'_>, parents: &Parents, rules: Rules) -> Vec<usize> {
     let mut needed: Vec<usize> = (0..product.fair()).collect();
     if needed.len() > 1 && solve_fairly(product, parents, rules, Vec::new()).won {
@@ -341,7 +344,14 @@ fn needed(product: &Product<'_>, parents: &Parents, rules: Rules) -> Vec<usize> 
             needed = others;
         }
     }
-    needed
+    if needed.is_empty() || product.fair() > EVERY || has_fair_run(product, &needed) {
+        return needed;
+    }
+    let of = |choice: &u32| (0..product.fair()).filter(|fair| choice >> fair & 1 == 1).collect::<Vec<_>>();
+    let mut choices: Vec<u32> = (1..1 << product.fair()).collect();
+    choices.sort_by_key(|choice| choice.count_ones());
+    let mut met = choices.iter().map(of).filter(|choice| has_fair_run(product, choice));
+    met.find(|choice| solve_fairly(product, parents, rules, choice.clone()).won).unwrap_or(needed)
 }
 
 /// What was not clear anywhere that matters.

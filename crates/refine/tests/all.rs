@@ -4,6 +4,7 @@ mod bmc;
 mod broken;
 mod computed;
 mod enumerated;
+mod growing;
 mod induction;
 mod invariants;
 mod naive;

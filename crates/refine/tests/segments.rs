@@ -134,6 +134,18 @@ fn so_it_is_where_runs_are_fair() {
     agree("same n; segment not concrete.h; diagrams 1:1..4; fair not concrete.h;", &[|_, (_, h)| !h], false);
 }
 
+/// An answer that a diagram allows is told, also where one that none allows comes to the same state.
+#[test]
+fn the_answer_that_is_allowed_is_told() {
+    let one = machine("controlled on: Boolean", "main rule r_Main = on := not on", "function on = false");
+    let signature = "domain K subsetof Integer controlled on: Boolean controlled k: K";
+    let rule = "domain K = {0:2} main rule r_Main = if k < 2 then k := k + 1 else par k := 0 on := true endpar endif";
+    let other = machine(signature, rule, "function on = false function k = 0");
+    let refutation = refuted(report(&one, &other, Some("same on; segment concrete.k = 0; diagrams 2:3;")));
+    let Ended::Unmatched { tried, .. } = refutation.ended else { panic!() };
+    assert!(tried.iter().any(|tried| tried.steps.len() == 2 && !tried.parts.is_empty()), "{tried:#?}");
+}
+
 #[test]
 fn a_segment_that_no_diagram_has_is_refuted() {
     let one = counter("n := (n + 1) mod 4");

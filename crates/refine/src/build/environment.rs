@@ -99,6 +99,14 @@ impl Builder {
                 }
                 continue;
             };
+            let grows = [(ABSTRACT, id), (CONCRETE, there)];
+            if let Some(domain) = grows.into_iter().find_map(|(side, input)| self.grows(side, input, true)) {
+                if read {
+                    let why = format!("is about elements of {domain} that each machine makes for itself");
+                    self.faults.push(input_not_coupled(start(self.coupling.file), name, &why));
+                }
+                continue;
+            }
             if let Some([one, other]) = self.other_domain(id, there) {
                 let why = format!("is in {one}, and in the concrete machine in {other}");
                 self.faults.push(input_not_coupled(start(self.coupling.file), name, &why));
@@ -133,6 +141,13 @@ impl Builder {
         let renamed = mapped.term.text.strip_prefix("concrete.");
         let renamed = renamed.and_then(|name| other.find_function(name, arity));
         if let Some(there) = renamed.filter(|there| is_input(other.function(*there))) {
+            let grows = [(ABSTRACT, input), (CONCRETE, there)];
+            if let Some(domain) = grows.into_iter().find_map(|(side, input)| self.grows(side, input, true)) {
+                let message =
+                    format!("each machine makes elements of {domain} for itself: these inputs are not the same");
+                let place = self.place(&mapped.term);
+                return self.fault(bad_coupling(place, message));
+            }
             match self.other_domain(input, there) {
                 None => return self.share(input, there),
                 // Of another domain it is a term like others.
