@@ -1,6 +1,7 @@
 //! Writes runs as Avalla: sets the inputs and picks the choices of each step of a trace.
 //!
-//! In: what a step was given. Out: lines of a scenario. A choice that no scenario can express becomes a comment.
+//! In: what a step was given. Out: lines of a scenario. What no scenario can express becomes a comment: a choice of a term, and elements
+//! that a run has made, which have no name.
 //! Counterexamples and generated tests are written with it.
 
 use std::fmt::Write;
@@ -8,6 +9,14 @@ use std::fmt::Write;
 use explore::ChoiceTaken;
 use machine::{Location, Show, Value};
 use program::{Program, Rule, RuleId};
+
+/// What is said in a scenario of what it cannot do.
+pub(crate) const UNSAID: &str = "which no scenario can say";
+
+/// Whether a scenario leaves out a part of its run.
+pub fn leaves_out(scenario: &str) -> bool {
+    scenario.lines().any(|line| line.starts_with("//") && line.ends_with(UNSAID))
+}
 
 /// Sets the inputs whose values changed since the last `set`.
 pub(crate) fn set(
@@ -22,7 +31,12 @@ pub(crate) fn set(
             Some((_, former)) => former.clone_from(value),
             None => given.push((location.clone(), value.clone())),
         }
-        let _ = writeln!(text, "set {} := {};", location.show(program), value.show(program));
+        let (place, shown) = (location.show(program), value.show(program));
+        let is_written = location.arguments.iter().chain([value]).all(|value| is_written(program, value));
+        let _ = match is_written {
+            true => writeln!(text, "set {place} := {shown};"),
+            false => writeln!(text, "// {place} is {shown} here, {UNSAID}"),
+        };
     }
 }
 
@@ -38,13 +52,17 @@ pub(crate) fn pick(text: &mut String, program: &Program, choice: &ChoiceTaken) {
             }
             for (binder, value) in program.binder_list(*binders).iter().zip(&choice.values) {
                 let variable = &procedure.names[binder.slot.0 as usize];
-                let _ = writeln!(text, "pick {variable} in {} := {};", procedure.name, value.show(program));
+                let (rule, shown) = (&procedure.name, value.show(program));
+                let _ = match is_written(program, value) {
+                    true => writeln!(text, "pick {variable} in {rule} := {shown};"),
+                    false => writeln!(text, "// {rule} chooses {shown} for {variable} here, {UNSAID}"),
+                };
             }
             return;
         }
     }
     let values: Vec<String> = choice.values.iter().map(|value| value.show(program).to_string()).collect();
-    let _ = writeln!(text, "// a term chooses {} here, which no scenario can say", values.join(", "));
+    let _ = writeln!(text, "// a term chooses {} here, {UNSAID}", values.join(", "));
 }
 
 /// Whether a value can be written as a term: it contains no unnamed element and no rule.

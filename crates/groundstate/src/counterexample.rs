@@ -12,7 +12,7 @@ use program::{FunctionKind, Program};
 use simulate::{Decided, Header, Inputs, Options, Run};
 use verify::{Subject, Trace};
 
-use crate::avalla::{is_written, pick, set};
+use crate::avalla::{UNSAID, is_written, pick, set};
 
 /// The run of a counterexample. The header sets the number of steps and how invariants are treated.
 pub fn counterexample_run(program: &Arc<Program>, limits: Limits, trace: &Trace, header: &Header) -> Run {
@@ -73,7 +73,7 @@ fn begin(text: &mut String, program: &Program, values: &[(Location, Value)]) {
         .partition(|(location, value)| location.arguments.iter().chain([value]).all(|part| is_written(program, part)));
     text.push_str("// the initial state, which is one of several\n");
     for (location, _) in unsaid {
-        let _ = writeln!(text, "// {} has a value here that no scenario can say", location.show(program));
+        let _ = writeln!(text, "// {} has a value here, {UNSAID}", location.show(program));
     }
     let update =
         |(location, value): &(Location, Value)| format!("{} := {}", location.show(program), value.show(program));

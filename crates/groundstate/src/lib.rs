@@ -44,6 +44,7 @@ use syntax::{Diagnostic, Severity, SourceFile, Sources, Span};
 
 pub use asked_of_system::{check_asked_of_system, draws_system, libraries_of, refusal, words, words_of};
 pub use assumptions::{Assumptions, OPTION as ASSUME, assume, terms_of};
+pub use avalla::leaves_out;
 pub use build::{BuiltChart, Located, build_chart};
 pub use check_coupling::check_coupling;
 pub use check_specification::check_specification;

@@ -489,6 +489,9 @@ fn write_scenarios(
         if shell.talks() {
             writeln!(shell.out(), "wrote {}", file.display())?;
         }
+        if groundstate::leaves_out(&text) {
+            shell.note(&crate::verify::counterexample::left_out(&file))?;
+        }
     }
     Ok(())
 }

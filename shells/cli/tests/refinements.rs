@@ -166,3 +166,29 @@ fn each_wrong_sibling_is_refuted_and_its_runs_are_made_again() {
         check(&["test", &into], code, again);
     }
 }
+
+/// Elements that a run has made have no names: a scenario that cannot pick one says so, and so does the command that writes it.
+#[test]
+fn what_no_scenario_can_say_is_told() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let text = "asm Items\nimport StandardLibrary\nsignature:\ndynamic abstract domain Item\ndomain K subsetof Integer\n\
+                controlled k: K\ncontrolled size: Item -> K\ncontrolled got: K\ndefinitions:\ndomain K = {0:3}\n\
+                invariant inv_small over got: got < 2\n\
+                main rule r_Main = if k < 3 then extend Item with $i do par size($i) := k k := k + 1 endpar\n\
+                else choose $i in Item with true do got := size($i) endif\n\
+                default init s0: function k = 0 function got = 0\n";
+    std::fs::write(folder.path().join("Items.asm"), text).expect("it is written");
+    let run = |arguments: &[&str], code: i32| {
+        let run = Command::new(env!("CARGO_BIN_EXE_groundstate")).args(arguments).current_dir(folder.path()).output();
+        let run = run.expect("it starts");
+        let said = format!("{}{}", String::from_utf8_lossy(&run.stdout), String::from_utf8_lossy(&run.stderr));
+        assert_eq!(run.status.code(), Some(code), "{arguments:?}: {said}");
+        said
+    };
+    let said = run(&["verify", "Items.asm", "--counterexample", "found"], 1);
+    assert!(said.contains("cannot make the whole run again"), "{said}");
+    let scenario = std::fs::read_to_string(folder.path().join("found/inv_small.avalla")).expect("a scenario");
+    assert!(scenario.contains("// r_Main chooses item!3 for $i here, which no scenario can say\n"), "{scenario}");
+    // It is a scenario all the same.
+    assert!(!run(&["check", "found/inv_small.avalla"], 0).contains("error"));
+}

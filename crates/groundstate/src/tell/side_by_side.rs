@@ -157,7 +157,7 @@ impl Refinements<'_> {
             }
         };
         let fails = |candidate: &Tried| match candidate.parts.is_empty() {
-            true => vec![vec!["no diagram allows so many steps".to_string()]],
+            true => vec![vec!["no diagram has these numbers of steps".to_string()]],
             false => candidate.parts.iter().map(broken).collect(),
         };
         tried.iter().map(|candidate| (does(candidate), fails(candidate))).collect()

@@ -76,6 +76,11 @@ pub fn write(
     Ok(())
 }
 
+/// What is said of a scenario that cannot make its whole run again.
+pub fn left_out(path: &Path) -> String {
+    format!("{} cannot make the whole run again: comments in it say what no scenario can say", path.display())
+}
+
 struct Writer<'a> {
     model: &'a Path,
     fingerprint: &'a str,
@@ -88,7 +93,7 @@ struct Writer<'a> {
 impl Writer<'_> {
     fn scenario(
         &self,
-        _shell: &Shell,
+        shell: &mut Shell,
         path: &Path,
         trace: &Trace,
         subject: Subject,
@@ -99,7 +104,11 @@ impl Writer<'_> {
         let text = script(self.program, self.properties, (subject, trace), name, &model);
         let mut file = Unfinished::create(path)?;
         file.write_all(text.as_bytes()).map_err(|error| Failure::of_file("write", path, error))?;
-        file.finish()
+        file.finish()?;
+        if groundstate::leaves_out(&text) {
+            shell.note(&left_out(path))?;
+        }
+        Ok(())
     }
 
     fn header(&self, trace: &Trace, subject: Subject) -> Header {

@@ -8,7 +8,7 @@ pub mod beside;
 mod bounded;
 mod checkpoint;
 mod conflict;
-mod counterexample;
+pub mod counterexample;
 mod disk;
 mod idle;
 mod live;
