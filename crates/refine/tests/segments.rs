@@ -11,7 +11,7 @@ use refine::{ABSTRACT, CONCRETE, Ended, Verdict, Why};
 use testkit::Random;
 
 use crate::naive::{Fair, Graph, Pairs, State, again, changed, graph, has_fair_round, machine_of, rule};
-use crate::small::{COUNTER, counter, lamp, machine, refuted, report};
+use crate::small::{COUNTER, counter, lamp, machine, program, refuted, report};
 
 /// A diagram has one abstract step and so many concrete ones.
 const LONGEST: usize = 4;
@@ -132,6 +132,33 @@ fn so_it_is_where_runs_are_fair() {
     agree(coupling, &[|go, _| go, |_, (n, _)| n != 0], true);
     // Within a segment the flag is set.
     agree("same n; segment not concrete.h; diagrams 1:1..4; fair not concrete.h;", &[|_, (_, h)| !h], false);
+}
+
+/// A model's own fairness is about its segments, also where waiting is allowed.
+#[test]
+fn a_segment_that_ends_in_fair_runs_is_not_refuted() {
+    let coupled = |said: &str, more: &str| {
+        let text = |said: &str, rule: &str| {
+            format!(
+                "asm M\nimport StandardLibrary\nimport CTLLibrary\nsignature:\nmonitored ready: Boolean\ncontrolled on: Boolean\n\
+                 controlled busy: Boolean\ndefinitions:\n{said}\nmain rule r_Main = {rule}\ndefault init s0:\n\
+                 function on = false\nfunction busy = false\n"
+            )
+        };
+        let one = program("M", &text("", "on := not on"));
+        let other =
+            "if not busy then busy := true else if ready then par busy := false on := not on endpar endif endif";
+        let other = program("M", &text(said, other));
+        let coupling = format!("same on; segment not concrete.busy; diagrams 0..1:1..3; allow waiting; {more}");
+        report(&one, &other, Some(&coupling))
+    };
+    let waits = |said: &str| coupled(said, "");
+    assert_eq!(coupled("", "fair concrete.ready;").verdict, Verdict::Unknown(vec![Why::Long(3)]));
+    assert_eq!(refuted(waits("")).ended, Ended::Endless(1));
+    assert_eq!(waits("JUSTICE ready").verdict, Verdict::Unknown(vec![Why::Long(3)]));
+    let unfair = waits("JUSTICE not ready");
+    assert_eq!(unfair.assumed.len(), 1);
+    assert_eq!(refuted(unfair).ended, Ended::Endless(1));
 }
 
 /// An answer that a diagram allows is told, also where one that none allows comes to the same state.

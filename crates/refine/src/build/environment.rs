@@ -19,6 +19,7 @@ impl Builder {
     pub(super) fn fairness(&mut self, written: &Written) {
         if let Some(part) = written.fair.first()
             && written.waiting
+            && written.segment.is_none()
         {
             let message = "`allow waiting` takes for granted that nothing waits for ever, whether or not that is fair";
             let place = self.place(part);
@@ -35,7 +36,8 @@ impl Builder {
             let in_step = self.reads_inputs(&functions);
             self.coupling.fair.push(Fair { term: FairTerm::Said(part.text.clone(), formula), in_step });
         }
-        if !written.waiting {
+        // Where waiting is allowed, it is still about segments that never end.
+        if !written.waiting || written.segment.is_some() {
             let properties = self.coupling.programs[CONCRETE].properties.iter();
             let just = properties.filter(|property| property.kind == PropertyKind::Justice);
             let own =
