@@ -119,6 +119,10 @@ fn a_page_shows_both_runs_and_both_charts() {
     assert!(
         page.contains("Says nothing: no initial states correspond") && page.contains("the abstract machine begins")
     );
+    if !solvers(false).is_empty() {
+        let (_, page) = refine("Right.refine", "runs.html", &["--method", "bmc", "--depth", "1"], 3);
+        assert!(page.contains("Not known") && page.contains("searched before") && !page.contains("all looked at"));
+    }
     // The sections alone, for a page of one's own.
     let (said, _) = refine("Wrong.refine", "-", &["--format", "json"], 1);
     assert!(said.contains("\"page\":{\"markup\":\"<section id=\\\"end\\\"") && said.contains("\"charts\":["), "{said}");
