@@ -7,6 +7,7 @@
 
 mod alternatives;
 mod assumed;
+pub mod checkpoint;
 mod compiled;
 mod explorer;
 mod given;

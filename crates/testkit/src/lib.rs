@@ -1,8 +1,8 @@
 //! Tools for the tests of several crates: loaders, the blocks of Markdown pages, solver processes, JSON Schema, random
 //! numbers, the repository's files.
 //!
-//! It does I/O, which the crates under test must not, so it is a dev-dependency and nothing else. It knows `syntax`, `model`
-//! and `solve` for their traits. The unit tests of those three see another copy of these types: only their integration
+//! It does I/O, which the crates under test must not, so it is a dev-dependency and nothing else. It knows `syntax`, `model`,
+//! `explore` and `solve` for their traits. The unit tests of these see another copy of these types: only their integration
 //! tests can use it. All other tests can.
 
 #![allow(
@@ -12,6 +12,7 @@
 )]
 
 pub mod loader;
+pub mod memory;
 pub mod page;
 pub mod random;
 pub mod repository;

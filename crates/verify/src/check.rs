@@ -4,6 +4,7 @@
 //! written. INVARIANT: nothing Holds unless every state was explored and every alternative taken, and there was one; the verdict names
 //! what was cut off.
 
+use explore::checkpoint::Keeper;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
@@ -11,7 +12,6 @@ use program::Program;
 use solve::session::Solvers;
 
 use crate::again::made_again;
-use crate::checkpoint::keeper::Keeper;
 use crate::choose::engine_of;
 use crate::coverage::unreachable_rules;
 use crate::engine::{Ended, Task};

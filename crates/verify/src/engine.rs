@@ -4,6 +4,7 @@
 //! by one engine is never violated by another; they may find different shortest runs. [`crate::choose`] selects the
 //! engine.
 
+use explore::checkpoint::Keeper;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
@@ -12,7 +13,6 @@ use program::Program;
 use solve::session::Solvers;
 
 use crate::again::made_again;
-use crate::checkpoint::keeper::Keeper;
 use crate::heed::Heed;
 use crate::options::EngineKind;
 use crate::partial_order::Unreduced;

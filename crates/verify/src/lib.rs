@@ -36,7 +36,7 @@ mod trace;
 pub mod vacuity;
 mod walk;
 
-pub use checkpoint::keeper::{Keeper, Refusal};
+pub use explore::checkpoint::{Keeper, Refusal};
 pub use heed::Listener;
 pub use options::{EngineKind, Options};
 pub use partial_order::Unreduced;

@@ -1,5 +1,6 @@
 //! The result of a verification: a verdict for each check, the extent of the search, or why nothing could be checked.
 
+use explore::checkpoint::Refusal;
 use std::collections::BTreeMap;
 
 use explore::{Trouble, Unbounded};
@@ -8,7 +9,6 @@ use program::FunctionId;
 use solve::Outside;
 use syntax::Span;
 
-use crate::checkpoint::keeper::Refusal;
 use crate::options::EngineKind;
 use crate::partial_order::Unreduced;
 use crate::progress::{Progress, Stop};

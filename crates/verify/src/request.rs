@@ -3,6 +3,7 @@
 //! In: a program, [`Options`] and further wishes. Out: a [`Request`] that can be carried out, or the [`Conflict`]
 //! between two parts. INVARIANT: a request that was built has no conflict, so shells need not check for any.
 
+use explore::checkpoint::Keeper;
 use std::fmt;
 use std::sync::Arc;
 
@@ -11,7 +12,6 @@ use program::Program;
 use solve::session::{Session, Silence, Solvers};
 
 use crate::check::verify_request;
-use crate::checkpoint::keeper::Keeper;
 use crate::heed::Listener;
 use crate::options::{EngineKind, Options};
 use crate::progress::Progress;

@@ -6,8 +6,9 @@ use std::sync::Arc;
 
 use program::Program;
 use syntax::SourceFile;
+use testkit::memory::{Memory, damaged};
 use testkit::repository;
-use verify::{Keeper, NoSolvers, NoStart, Options, Outcome, Progress, Refusal, Report, Request, Stop};
+use verify::{NoSolvers, NoStart, Options, Outcome, Progress, Refusal, Report, Request, Stop};
 
 use crate::models::{Disk, lowered};
 
@@ -27,56 +28,6 @@ fn growing(most: u32) -> Arc<Program> {
          default init s0:\n function sum = 0\n function square = 0\n function last = false\n"
     );
     lowered(SourceFile::new("Grow.asm", text))
-}
-
-/// Stores words in memory.
-#[derive(Default)]
-struct Memory {
-    model: u64,
-    kept: Option<Vec<u64>>,
-    unfinished: Vec<u64>,
-    read: usize,
-    /// A checkpoint is due every this many rounds.
-    every: usize,
-    rounds: usize,
-    times: usize,
-}
-
-impl Keeper for Memory {
-    fn model(&self) -> u64 {
-        self.model
-    }
-
-    fn is_due(&mut self) -> bool {
-        self.rounds += 1;
-        self.every > 0 && self.rounds.is_multiple_of(self.every)
-    }
-
-    fn open(&mut self) -> bool {
-        self.read = 0;
-        self.kept.is_some()
-    }
-
-    fn read(&mut self, words: &mut [u64]) -> bool {
-        let kept = self.kept.as_deref().unwrap_or_default();
-        let Some(found) = kept.get(self.read..self.read + words.len()) else { return false };
-        words.copy_from_slice(found);
-        self.read += words.len();
-        true
-    }
-
-    fn write(&mut self, words: &[u64]) {
-        self.unfinished.extend(words);
-    }
-
-    fn end(&mut self) {
-        self.kept = Some(std::mem::take(&mut self.unfinished));
-        self.times += 1;
-    }
-
-    fn remove(&mut self) {
-        self.kept = None;
-    }
 }
 
 fn check(program: &Arc<Program>, options: &Options, keeper: &mut Memory) -> Result<Report, NoStart> {
@@ -163,7 +114,7 @@ fn pauses_change_nothing() {
     for (program, every) in [(program("ChainXS"), 3), (growing(14), 2)] {
         let whole = straight(&program, &Options { engine: verify::EngineKind::Explicit, ..Options::default() });
         for workers in [1, 2] {
-            let mut keeper = Memory { every, ..Memory::default() };
+            let mut keeper = Memory::every(every);
             let report = check(&program, &Options { workers, alone: Some(0), ..Options::default() }, &mut keeper)
                 .expect("it starts");
             assert!(keeper.times > 2);
@@ -175,7 +126,7 @@ fn pauses_change_nothing() {
 
 /// A checkpoint of an incomplete search.
 fn kept(program: &Arc<Program>) -> Memory {
-    let mut keeper = Memory { model: 7, ..Memory::default() };
+    let mut keeper = Memory::of(7, None);
     check(program, &Options { max_states: 60, ..Options::default() }, &mut keeper).expect("it starts");
     assert!(keeper.kept.is_some());
     keeper
@@ -210,22 +161,12 @@ fn what_is_of_something_else_is_refused() {
 fn what_is_damaged_is_refused() {
     for program in [program("Swing"), growing(14)] {
         let whole = kept(&program).kept.expect("kept");
-        for len in 0..whole.len() {
-            let mut keeper = Memory { model: 7, kept: Some(whole[..len].to_vec()), ..Memory::default() };
-            assert!(refused(&program, &Options::default(), &mut keeper).is_some(), "{len} words");
-        }
-        let mut random = 1u64;
-        for word in 0..whole.len() {
-            random = random.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            for bit in [0, 63, random >> 58] {
-                let mut flipped = whole.clone();
-                flipped[word] ^= 1 << bit;
-                let mut keeper = Memory { model: 7, kept: Some(flipped), ..Memory::default() };
-                assert!(refused(&program, &Options::default(), &mut keeper).is_some(), "bit {bit} of word {word}");
-            }
+        for (what, kept) in damaged(&whole) {
+            let mut keeper = Memory::of(7, Some(kept));
+            assert!(refused(&program, &Options::default(), &mut keeper).is_some(), "{what}");
         }
         let longer = [&whole[..], &[0]].concat();
-        let mut keeper = Memory { model: 7, kept: Some(longer), ..Memory::default() };
+        let mut keeper = Memory::of(7, Some(longer));
         assert_eq!(refused(&program, &Options::default(), &mut keeper), Some(Refusal::Damaged));
     }
 }

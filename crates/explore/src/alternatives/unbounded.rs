@@ -3,7 +3,7 @@
 //! In: nothing. Out: of what kind they are, and where they stand in the text. It must not know how steps are made.
 
 use program::FunctionId;
-use syntax::Span;
+use syntax::{FileId, Span};
 
 /// What kind of alternatives cannot be gone through.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -25,4 +25,31 @@ pub struct Unbounded {
     pub kind: UnboundedKind,
     /// The function's declaration, or the choose rule.
     pub span: Span,
+}
+
+impl Unbounded {
+    /// It as words of a checkpoint.
+    pub fn words(&self) -> [u64; 5] {
+        let (kind, function) = match self.kind {
+            UnboundedKind::Input(function) => (0, function.0),
+            UnboundedKind::Choice => (1, 0),
+            UnboundedKind::Clock => (2, 0),
+            UnboundedKind::Limit => (3, 0),
+        };
+        let Span { file, start, end } = self.span;
+        [kind, function.into(), file.0.into(), start.into(), end.into()]
+    }
+
+    /// What such words stand for, if they stand for something.
+    pub fn of_words(words: &[u64]) -> Option<Unbounded> {
+        let &[kind, function, file, start, end] = words else { return None };
+        let kind = match kind {
+            0 => UnboundedKind::Input(FunctionId(function as u32)),
+            1 => UnboundedKind::Choice,
+            2 => UnboundedKind::Clock,
+            3 => UnboundedKind::Limit,
+            _ => return None,
+        };
+        Some(Unbounded { kind, span: Span { file: FileId(file as u32), start: start as u32, end: end as u32 } })
+    }
 }

@@ -30,6 +30,16 @@ impl Dictionary {
         self.numbers.len()
     }
 
+    /// Its values, by code.
+    pub fn numbers(&self) -> &[u32] {
+        &self.numbers
+    }
+
+    /// Gives a value that it does not have the next code, however many there are.
+    pub fn again(&mut self, number: u32) {
+        self.add(number);
+    }
+
     /// The code of a value that it has.
     #[inline]
     pub fn code(&self, number: u32) -> Option<u32> {

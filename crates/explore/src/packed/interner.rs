@@ -11,6 +11,7 @@ use machine::inside::Grown;
 use machine::{Location, Value};
 use rustc_hash::FxBuildHasher;
 
+use crate::checkpoint::{Known, Refusal, Words, write_location, write_value, write_values};
 use crate::packed::few::Dictionary;
 
 /// What a state has beyond its fields: locations that come up as a run goes on, and the elements of domains that grow.
@@ -86,6 +87,63 @@ impl Interner {
     /// Whether it holds nothing.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
+    }
+
+    /// All that it holds, as words of a checkpoint.
+    pub fn keep(&self, words: &mut Vec<u64>) {
+        let tables = self.tables.lock().unwrap_or_else(PoisonError::into_inner);
+        write_values(words, &tables.values.items);
+        words.push(tables.rests.items.len() as u64);
+        for rest in &tables.rests.items {
+            let Rest { locations, grown } = &**rest;
+            words.push(locations.len() as u64);
+            for (location, value) in locations {
+                write_location(words, location);
+                write_value(words, value);
+            }
+            words.push(grown.len() as u64);
+            for Grown { domain, count, elements } in grown {
+                words.extend([u64::from(domain.0), u64::from(*count)]);
+                write_values(words, elements);
+            }
+        }
+        words.push(tables.few.len() as u64);
+        for dictionary in &tables.few {
+            words.push(dictionary.numbers().len() as u64);
+            words.extend(dictionary.numbers().iter().map(|number| u64::from(*number)));
+        }
+    }
+
+    /// One that holds what was kept, with the same numbers.
+    ///
+    /// # Errors
+    /// The words are none of an interner.
+    pub fn again(words: &mut Words<'_>, known: Known<'_>) -> Result<Interner, Refusal> {
+        let mut tables = Tables::default();
+        for value in known.values(words)? {
+            tables.values.number(&value);
+        }
+        let rests: Vec<Rest> = words.many(|words| {
+            let locations = words.many(|words| Ok((known.location(words)?, known.value(words)?)))?;
+            let grown = words.many(|words| {
+                let (domain, count) = (known.domain(words)?, words.number()?);
+                Ok(Grown { domain, count, elements: known.values(words)? })
+            })?;
+            Ok(Rest { locations, grown })
+        })?;
+        for rest in rests {
+            tables.rests.number(&Arc::new(rest));
+        }
+        let few: Vec<Vec<u32>> = words.many(|words| words.many(|words| words.number()))?;
+        for (location, numbers) in few.into_iter().enumerate() {
+            let dictionary = tables.dictionary(location as u32);
+            numbers.into_iter().for_each(|number| dictionary.again(number));
+        }
+        let count = tables.values.items.len();
+        match tables.few.iter().flat_map(Dictionary::numbers).all(|number| (*number as usize) < count) {
+            true => Ok(Interner { tables: Mutex::new(tables) }),
+            false => Err(Refusal::Damaged),
+        }
     }
 }
 

@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use program::FunctionId;
 
+use crate::checkpoint::{Known, Refusal, Words};
 use crate::packed::collection::Misfit;
 
 /// What has been found not to fit since the encoding was made.
@@ -46,6 +47,38 @@ impl Widening {
     /// Whether a location has outgrown the room that a census gave it.
     pub fn is_outgrown(&self) -> bool {
         !self.outgrown.is_empty()
+    }
+
+    /// All of it, as words of a checkpoint.
+    pub fn keep(&self, words: &mut Vec<u64>) {
+        let Widening { undefined, rest, longest, numbered, rooms, outgrown } = self;
+        let functions = |words: &mut Vec<u64>, functions: &BTreeSet<FunctionId>| {
+            words.push(functions.len() as u64);
+            words.extend(functions.iter().map(|function| u64::from(function.0)));
+        };
+        functions(words, undefined);
+        words.push(u64::from(*rest));
+        words.push(longest.len() as u64);
+        words.extend(longest.iter().flat_map(|(function, length)| [u64::from(function.0), *length as u64]));
+        functions(words, numbered);
+        words.push(rooms.len() as u64);
+        words.extend(rooms.iter().flat_map(|(location, bits)| [u64::from(*location), u64::from(*bits)]));
+        words.push(outgrown.len() as u64);
+        words.extend(outgrown.iter().map(|location| u64::from(*location)));
+    }
+
+    /// What was kept.
+    ///
+    /// # Errors
+    /// The words are none of a widening.
+    pub fn again(words: &mut Words<'_>, known: Known<'_>) -> Result<Widening, Refusal> {
+        let undefined = words.many(|words| known.function(words))?;
+        let rest = words.below(2)? == 1;
+        let longest = words.many(|words| Ok((known.function(words)?, words.number()?)))?;
+        let numbered = words.many(|words| known.function(words))?;
+        let rooms = words.many(|words| Ok((words.number()?, words.number()?)))?;
+        let outgrown = words.many(|words| words.number())?;
+        Ok(Widening { undefined, rest, longest, numbered, rooms, outgrown })
     }
 
     /// Whether nothing has been found.

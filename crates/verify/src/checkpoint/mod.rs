@@ -9,20 +9,15 @@
 
 mod identity;
 pub(crate) mod journal;
-pub(crate) mod keeper;
-mod words;
 
 use std::sync::Arc;
 
-use explore::{Explorer, Trouble, Unbounded, UnboundedKind, Widening};
-use model::FunctionId;
+use explore::checkpoint::{Keeper, Kind, Reader, Refusal, Writer, layout};
+use explore::{Explorer, Trouble, Unbounded, Widening};
 use program::Program;
-use syntax::{FileId, Span};
 
-use crate::checkpoint::identity::{layout, question};
+use crate::checkpoint::identity::question;
 use crate::checkpoint::journal::Journal;
-use crate::checkpoint::keeper::{Keeper, Refusal};
-use crate::checkpoint::words::{Reader, Writer};
 use crate::explicit::shard::{Shard, owner};
 use crate::explorers::Maker;
 use crate::partial_order::{Unreduced, reduction};
@@ -30,8 +25,8 @@ use crate::plan::Plan;
 use crate::storage::Store;
 use crate::target::{Found, Target};
 
-/// Increased whenever the meaning of the written words changes.
-const VERSION: u64 = 4;
+/// What these checkpoints are of.
+const KIND: Kind = Kind { name: b"gsverify", version: 5 };
 
 /// The attempts before the present one, which ended because states did not fit.
 #[derive(Debug, Clone, Default)]
@@ -102,7 +97,7 @@ pub(crate) fn keep(
 ) {
     let words = explorer.words();
     let model = keeper.model();
-    let mut writer = Writer::begin(keeper, VERSION);
+    let mut writer = Writer::begin(keeper, KIND);
     writer.word(model);
     writer.word(question(program, plan));
     let levels = shards[0].levels.len();
@@ -119,7 +114,7 @@ pub(crate) fn keep(
     writer.section(journal.map_or(&[], |journal| &journal.places));
     let unknown: Vec<u64> = shards.iter().flat_map(|shard| &shard.unknown).map(|condition| *condition as u64).collect();
     writer.section(&unknown);
-    let unbounded: Vec<u64> = shards.iter().flat_map(|shard| &shard.unbounded).flat_map(of_unbounded).collect();
+    let unbounded: Vec<u64> = shards.iter().flat_map(|shard| &shard.unbounded).flat_map(Unbounded::words).collect();
     writer.section(&unbounded);
     let rules = program.rules.len();
     let executed: Vec<u64> =
@@ -159,7 +154,7 @@ pub(crate) fn resume(keeper: &mut dyn Keeper, program: &Arc<Program>, plan: &Pla
 
 fn read(keeper: &mut dyn Keeper) -> Result<Option<Kept>, Refusal> {
     let model = keeper.model();
-    let Some(mut reader) = Reader::begin(keeper, VERSION)? else { return Ok(None) };
+    let Some(mut reader) = Reader::begin(keeper, KIND)? else { return Ok(None) };
     let of_model = reader.word()?;
     let mut kept = Kept {
         question: reader.word()?,
@@ -250,7 +245,11 @@ impl Kept {
         shard.blocked = blocked;
         shard.unknown.extend(self.unknown.iter().map(|condition| *condition as usize));
         shard.unbounded.extend(
-            self.unbounded.chunks_exact(5).map(to_unbounded).collect::<Option<Vec<_>>>().ok_or(Refusal::Damaged)?,
+            self.unbounded
+                .chunks_exact(5)
+                .map(Unbounded::of_words)
+                .collect::<Option<Vec<_>>>()
+                .ok_or(Refusal::Damaged)?,
         );
         shard.executed = self.executed;
         for found in self.found.chunks_exact(3 + words) {
@@ -295,27 +294,4 @@ fn to_target(kind: u64, number: usize) -> Option<Target> {
         3 => Target::StepCondition(number),
         _ => return None,
     })
-}
-
-fn of_unbounded(unbounded: &Unbounded) -> [u64; 5] {
-    let (kind, function) = match unbounded.kind {
-        UnboundedKind::Input(function) => (0, function.0),
-        UnboundedKind::Choice => (1, 0),
-        UnboundedKind::Clock => (2, 0),
-        UnboundedKind::Limit => (3, 0),
-    };
-    let Span { file, start, end } = unbounded.span;
-    [kind, function.into(), file.0.into(), start.into(), end.into()]
-}
-
-fn to_unbounded(words: &[u64]) -> Option<Unbounded> {
-    let &[kind, function, file, start, end] = words else { return None };
-    let kind = match kind {
-        0 => UnboundedKind::Input(FunctionId(function as u32)),
-        1 => UnboundedKind::Choice,
-        2 => UnboundedKind::Clock,
-        3 => UnboundedKind::Limit,
-        _ => return None,
-    };
-    Some(Unbounded { kind, span: Span { file: FileId(file as u32), start: start as u32, end: end as u32 } })
 }

@@ -5,6 +5,7 @@
 //! the next begins, so a finding is at the least distance, and of several states the least in canonical order.
 //! INVARIANT: the result is the same for any number of workers.
 
+use explore::checkpoint::Keeper;
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
@@ -15,7 +16,6 @@ use syntax::Span;
 
 use crate::again::made_again;
 use crate::checkpoint::journal::Journal;
-use crate::checkpoint::keeper::Keeper;
 use crate::checkpoint::{Past, Resumed, Unfit, keep, made, resume};
 use crate::explicit::anew::packed_anew;
 use crate::explicit::crew::Crew;

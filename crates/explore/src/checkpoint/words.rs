@@ -3,10 +3,17 @@
 //! In: a [`Keeper`], which does the I/O. Out: the sections, or that the words are damaged. INVARIANT: a length is not
 //! trusted before that many words were read; nothing is used before the checksum is verified.
 
-use crate::checkpoint::keeper::{Keeper, Refusal};
+use super::keeper::{Keeper, Refusal};
 
-/// The first word of a checkpoint: `gsverify`, as bytes.
-const MARK: u64 = u64::from_be_bytes(*b"gsverify");
+/// What a checkpoint is of: its first two words.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Kind {
+    /// The search that it is of.
+    pub name: &'static [u8; 8],
+    /// Increased whenever the meaning of the written words changes.
+    pub version: u64,
+}
+
 /// How many words are transferred at a time.
 const PIECE: usize = 1 << 12;
 
@@ -29,11 +36,11 @@ pub struct Writer<'k> {
 }
 
 impl<'k> Writer<'k> {
-    /// Begins a checkpoint of this version.
-    pub fn begin(keeper: &'k mut dyn Keeper, version: u64) -> Writer<'k> {
+    /// Begins a checkpoint of this kind.
+    pub fn begin(keeper: &'k mut dyn Keeper, kind: Kind) -> Writer<'k> {
         let mut writer = Writer { keeper, sum: Sum(0), piece: Vec::with_capacity(PIECE) };
-        writer.word(MARK);
-        writer.word(version);
+        writer.word(u64::from_be_bytes(*kind.name));
+        writer.word(kind.version);
         writer
     }
 
@@ -73,15 +80,15 @@ impl<'k> Reader<'k> {
     ///
     /// # Errors
     /// It is not a checkpoint, or its version differs.
-    pub fn begin(keeper: &'k mut dyn Keeper, version: u64) -> Result<Option<Reader<'k>>, Refusal> {
+    pub fn begin(keeper: &'k mut dyn Keeper, kind: Kind) -> Result<Option<Reader<'k>>, Refusal> {
         if !keeper.open() {
             return Ok(None);
         }
         let mut reader = Reader { keeper, sum: Sum(0) };
-        if reader.word().ok() != Some(MARK) {
+        if reader.word().ok() != Some(u64::from_be_bytes(*kind.name)) {
             return Err(Refusal::Foreign);
         }
-        if reader.word()? != version {
+        if reader.word()? != kind.version {
             return Err(Refusal::Version);
         }
         Ok(Some(reader))
