@@ -9,6 +9,7 @@
 //! answered.
 
 mod endless;
+mod kept;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
@@ -150,9 +151,8 @@ type Reached = (StateId, usize, Option<(StateId, Move)>);
 type Memo = FxHashMap<(StateId, ReadsId, u32), NodeId>;
 
 impl<'c> Product<'c> {
-    /// The initial pairs.
-    pub fn new(mut sides: [Side<'c>; 2], judge: Judge<'c>) -> Product<'c> {
-        let mut inputs = Inputs::default();
+    /// The initial pairs. The inputs have the numbers that the sides know them by.
+    pub fn new(mut sides: [Side<'c>; 2], judge: Judge<'c>, mut inputs: Inputs) -> Product<'c> {
         let bridges = &judge.coupling.joint.bridges;
         let initial = sides[ABSTRACT].initial(&mut inputs, &bridges[ABSTRACT]);
         let begun = sides[CONCRETE].initial(&mut inputs, &bridges[CONCRETE]);

@@ -5,6 +5,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 
+use explore::checkpoint::{Refusal, Words};
 use rustc_hash::FxHashMap;
 
 use crate::side::{Inputs, LabelId};
@@ -39,6 +40,40 @@ impl Readings {
     /// What a number says.
     pub fn get(&self, reads: ReadsId) -> &Reads {
         &self.all[reads as usize]
+    }
+
+    /// How many there are.
+    pub fn len(&self) -> usize {
+        self.all.len()
+    }
+
+    /// All of them, as words of a checkpoint.
+    pub fn keep(&self, words: &mut Vec<u64>) {
+        words.push(self.all.len() as u64);
+        for reads in &self.all {
+            words.push(reads.len() as u64);
+            for (location, values) in &**reads {
+                words.extend([u64::from(*location), values.len() as u64]);
+                words.extend(values.iter().map(|value| u64::from(*value)));
+            }
+        }
+    }
+
+    /// What was kept, with the same numbers.
+    ///
+    /// # Errors
+    /// The words are none of these inputs.
+    pub fn again(words: &mut Words<'_>, inputs: &Inputs) -> Result<Readings, Refusal> {
+        let mut readings = Readings { all: Vec::new(), numbers: FxHashMap::default(), after: FxHashMap::default() };
+        let location = |words: &mut Words<'_>| {
+            let location = words.below(inputs.told.len())?;
+            Ok((location, words.many(|words| words.below(inputs.told_values.len()))?))
+        };
+        let all: Vec<Reads> = words.many(|words| words.many(location))?;
+        let count = all.len();
+        all.into_iter().for_each(|reads| _ = readings.number(reads));
+        let is_first = readings.all.first().is_some_and(|reads| reads.is_empty());
+        if is_first && readings.all.len() == count { Ok(readings) } else { Err(Refusal::Damaged) }
     }
 
     fn number(&mut self, reads: Reads) -> ReadsId {

@@ -6,12 +6,14 @@
 
 use std::sync::Arc;
 
+use explore::checkpoint::{Keeper, Refusal};
 use explore::{Unbounded, Widening};
 use machine::{Cause, Fault};
 use program::PropertyKind;
 
 use crate::behind::{self, is_unclear};
 use crate::bounded::of_proof;
+use crate::checkpoint::{Kept, KeptSide, kept};
 use crate::coupling::Coupling;
 use crate::evidence::{self, Ended, Refutation};
 use crate::fair::has_fair_run;
@@ -22,14 +24,12 @@ use crate::options::Options;
 use crate::preserve::preserved;
 use crate::product::{Node, NodeId, Product, Unclear};
 use crate::report::{Assumed, From, Progress, Report, Vacuous, Verdict, Why};
-use crate::side::{Ahead, Ending, Side, Stopped};
+use crate::search::{Keeping, Searched, Whys, progress_of, search};
+use crate::side::{Inputs, Side, Stopped};
 use crate::{ABSTRACT, CONCRETE};
 
 /// LIMIT: so many pairs of states are compared to find out whether the relation says anything.
 const COMPARED: usize = 1 << 22;
-
-/// Behind so many pairs the game is decided for the first time, and then whenever they have doubled.
-const LOOK: usize = 256;
 
 /// Why nothing can be said.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -40,6 +40,8 @@ pub enum Trouble {
     Unbounded(usize, Unbounded),
     /// Whoever waits has had enough before the initial states were made.
     Stopped(Cause),
+    /// The search cannot go on from its checkpoint.
+    Refused(Refusal),
 }
 
 /// Whether the concrete machine refines the abstract one. `watch` receives progress and tells whether to go on.
@@ -51,24 +53,33 @@ pub fn refine(
     options: &Options,
     watch: &mut dyn FnMut(&Progress) -> bool,
 ) -> Result<Report, Trouble> {
-    let options = &with_shared_inputs(coupling, options);
-    let mut widenings: [Widening; 2] = Default::default();
-    loop {
-        match attempt(coupling, options, &widenings, watch)? {
-            Ok(report) => return Ok(report),
-            Err((side, widening)) => widenings[side].merge(&widening),
-        }
-    }
+    refine_kept(coupling, options, None, watch)
 }
 
-/// Reasons, each once.
-#[derive(Default)]
-struct Whys(Vec<Why>);
-
-impl Whys {
-    fn add(&mut self, why: Why) {
-        if !self.0.contains(&why) {
-            self.0.push(why);
+/// The same; with a keeper, it goes on from its checkpoint, and writes one from time to time, and when a limit ends the search.
+///
+/// # Errors
+/// A machine has no initial states, or the checkpoint does not fit.
+pub fn refine_kept(
+    coupling: &Coupling,
+    options: &Options,
+    mut keeper: Option<&mut dyn Keeper>,
+    watch: &mut dyn FnMut(&Progress) -> bool,
+) -> Result<Report, Trouble> {
+    let options = &with_shared_inputs(coupling, options);
+    let mut past = match &mut keeper {
+        Some(keeper) => kept(*keeper, coupling, options).map_err(Trouble::Refused)?,
+        None => None,
+    };
+    let mut widenings = match &past {
+        Some(past) => past.sides.each_ref().map(|side| side.widening.clone()),
+        None => Default::default(),
+    };
+    loop {
+        let keeper = keeper.as_mut().map(|keeper| &mut **keeper as &mut dyn Keeper);
+        match attempt(coupling, options, &widenings, (keeper, past.take()), watch)? {
+            Ok(report) => return Ok(report),
+            Err((side, widening)) => widenings[side].merge(&widening),
         }
     }
 }
@@ -79,7 +90,7 @@ type Attempt = Result<Report, (usize, Widening)>;
 pub(crate) fn product<'c>(coupling: &'c Coupling, options: &Options) -> Result<Product<'c>, Trouble> {
     let mut widenings: [Widening; 2] = Default::default();
     loop {
-        match begun(coupling, options, &widenings)? {
+        match begun(coupling, options, &widenings, None)? {
             Ok(product) => return Ok(product),
             Err((side, widening)) => widenings[side].merge(&widening),
         }
@@ -91,10 +102,12 @@ pub(crate) fn begun<'c>(
     coupling: &'c Coupling,
     options: &Options,
     widenings: &[Widening; 2],
+    past: Option<Kept>,
 ) -> Result<Result<Product<'c>, (usize, Widening)>, Trouble> {
     let mut sides = Vec::new();
     for side in [ABSTRACT, CONCRETE] {
-        let mut made = match Side::new(coupling, side, &options.extents[side], &widenings[side]) {
+        let interner = past.as_ref().map(|past| Arc::clone(&past.sides[side].interner)).unwrap_or_default();
+        let mut made = match Side::new(coupling, side, &options.extents[side], (&widenings[side], &interner)) {
             Ok(made) => made,
             Err(explore::Trouble::TooNarrow(widening)) => return Ok(Err((side, widening))),
             Err(explore::Trouble::Fault(fault)) => return Err(Trouble::Fault(side, fault)),
@@ -102,24 +115,36 @@ pub(crate) fn begun<'c>(
             Err(explore::Trouble::Interrupted(cause)) => return Err(Trouble::Stopped(cause)),
         };
         made.most = options.max_steps;
+        if let Some(past) = &past {
+            let KeptSide { states, found, .. } = &past.sides[side];
+            made.take_over((states, found), past.inputs.labels()).map_err(Trouble::Refused)?;
+        }
         sides.push(made);
     }
     let Ok(sides) = <[Side<'c>; 2]>::try_from(sides) else { unreachable!("there are two sides") };
     let judge = Judge::new(coupling, &options.extents[CONCRETE].limits);
-    Ok(Ok(Product::new(sides, judge)))
+    let Some(Kept { next, inputs, found, .. }) = past else {
+        return Ok(Ok(Product::new(sides, judge, Inputs::default())));
+    };
+    let mut product = Product::new(sides, judge, inputs);
+    product.take_over(&found, next).map_err(Trouble::Refused)?;
+    Ok(Ok(product))
 }
 
-fn attempt(
+fn attempt<'k>(
     coupling: &Coupling,
     options: &Options,
-    widenings: &[Widening; 2],
+    widenings: &'k [Widening; 2],
+    (keeper, kept): (Option<&'k mut dyn Keeper>, Option<Kept>),
     watch: &mut dyn FnMut(&Progress) -> bool,
 ) -> Result<Attempt, Trouble> {
-    let mut product = match begun(coupling, options, widenings)? {
+    let past = kept.as_ref().map_or(0, |kept| kept.next);
+    let mut product = match begun(coupling, options, widenings, kept)? {
         Ok(product) => product,
         Err(narrow) => return Ok(Err(narrow)),
     };
-    let Searched { mut whys, is_lost, next } = match search(&mut product, options, watch) {
+    let mut keeping = Keeping { keeper, past, widenings };
+    let Searched { mut whys, is_lost, next } = match search(&mut product, options, &mut keeping, watch) {
         Ok(searched) => searched,
         Err(narrow) => return Ok(Err(narrow)),
     };
@@ -222,109 +247,6 @@ fn attempt(
     };
     let dead_ends = product.sides[CONCRETE].dead_ends();
     Ok(Ok(Report { verdict, progress, diagrams, assumed, idle, dead_ends, properties, proof: None, runs: None }))
-}
-
-fn progress_of(product: &Product<'_>, queue: usize) -> Progress {
-    Progress {
-        pairs: product.pairs.len() as u64,
-        queue: queue as u64,
-        states: [ABSTRACT, CONCRETE].map(|side| product.sides[side].count() as u64),
-        steps: [ABSTRACT, CONCRETE].map(|side| product.sides[side].steps.0),
-    }
-}
-
-/// How far a search came.
-struct Searched {
-    /// Why it came no further.
-    whys: Whys,
-    /// It is lost, whatever comes.
-    is_lost: bool,
-    /// The first pair that was not looked at.
-    next: usize,
-}
-
-/// Looks at the pairs, one after the other, until all are known, or it is lost, or a limit is met.
-fn search(
-    product: &mut Product<'_>,
-    options: &Options,
-    watch: &mut dyn FnMut(&Progress) -> bool,
-) -> Result<Searched, (usize, Widening)> {
-    std::thread::scope(|scope| {
-        let ahead = Arc::new(Ahead::new());
-        let _end = Ending(&ahead);
-        let searched = searched(product, options, watch, &mut |product, next| {
-            for _ in 1..options.workers {
-                let recipes = product.sides.each_ref().map(|side| side.recipe.clone().ended_by(ahead.interrupt()));
-                let ahead = Arc::clone(&ahead);
-                // Steps may recurse deeply; beyond this, the stack grows on demand. Without a thread the search goes on alone.
-                let worker = std::thread::Builder::new().name("steps".to_string()).stack_size(16 << 20);
-                let _ = worker.spawn_scoped(scope, move || ahead.work(&recipes));
-            }
-            product.sides.iter_mut().for_each(|side| side.ahead(Some(&ahead)));
-            for (one, other) in &product.pairs[next..] {
-                product.sides[ABSTRACT].offer(*one);
-                product.sides[CONCRETE].offer(*other);
-            }
-        });
-        product.sides.iter_mut().for_each(|side| side.ahead(None));
-        searched
-    })
-}
-
-/// The same; `help` is called when the search has become long.
-fn searched<'c>(
-    product: &mut Product<'c>,
-    options: &Options,
-    watch: &mut dyn FnMut(&Progress) -> bool,
-    help: &mut dyn FnMut(&mut Product<'c>, usize),
-) -> Result<Searched, (usize, Widening)> {
-    let mut whys = Whys::default();
-    let (mut next, mut look_again, mut is_lost) = (0, LOOK, false);
-    while next < product.pairs.len() {
-        if next >= look_again {
-            // What is lost whatever comes need not wait for the rest of the search, which may have no end.
-            is_lost = !solve(product, &Parents::of(product), Rules::of(product, true)).won;
-            if is_lost {
-                break;
-            }
-            look_again = next * 2;
-        }
-        if next as u64 >= options.max_pairs {
-            whys.add(Why::Pairs(options.max_pairs));
-            break;
-        }
-        if product.sides.iter().map(|side| side.steps.0).sum::<u64>() >= options.max_steps {
-            whys.add(Why::Steps(options.max_steps));
-            break;
-        }
-        if next.is_multiple_of(64) && !watch(&progress_of(product, product.pairs.len() - next)) {
-            whys.add(Why::Stopped(Cause::Asked));
-            break;
-        }
-        if next == options.alone && options.workers > 1 && options.max_steps == u64::MAX {
-            help(product, next);
-        }
-        let asked = |side: usize| options.extents[side].interrupt.cause();
-        match asked(ABSTRACT).or(asked(CONCRETE)) {
-            Some(cause) => {
-                whys.add(Why::Stopped(cause));
-                break;
-            }
-            None => match product.explore(next as u32) {
-                Ok(()) => next += 1,
-                Err(Stopped::Narrow(side, widening)) => return Err((side, widening)),
-                Err(Stopped::Many) => {
-                    whys.add(Why::Steps(options.max_steps));
-                    break;
-                }
-                Err(Stopped::Interrupted) => {
-                    whys.add(Why::Stopped(asked(ABSTRACT).or(asked(CONCRETE)).unwrap_or(Cause::Asked)));
-                    break;
-                }
-            },
-        }
-    }
-    Ok(Searched { whys, is_lost, next })
 }
 
 /// LIMIT: of so many conditions of fairness every choice is tried.

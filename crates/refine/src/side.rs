@@ -6,6 +6,7 @@
 
 mod ahead;
 mod followed;
+mod kept;
 mod looked;
 mod stepper;
 
@@ -13,7 +14,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 use std::sync::Arc;
 
-use explore::{Numbered, Outcome, Start, Told, Trouble, Unbounded, Widening};
+use explore::{Interner, Numbered, Outcome, Start, Told, Trouble, Unbounded, Widening};
 use machine::{Fault, Interrupt, Location, Value};
 use program::{Expression, FunctionId, Program};
 use rustc_hash::{FxHashMap, FxHashSet};
@@ -83,6 +84,11 @@ impl Inputs {
             told_labels.push(Rc::clone(label));
             next
         })
+    }
+
+    /// How many labels there are.
+    pub fn labels(&self) -> usize {
+        self.told_labels.len()
     }
 
     /// The label of a number.
@@ -175,7 +181,7 @@ pub(crate) struct Side<'c> {
 }
 
 impl<'c> Side<'c> {
-    /// One of the machines of a coupling.
+    /// One of the machines of a coupling. The interner holds nothing, or what it held when the states were packed that follow.
     ///
     /// # Errors
     /// Its initial states cannot be made.
@@ -183,9 +189,9 @@ impl<'c> Side<'c> {
         coupling: &'c Coupling,
         place: usize,
         extent: &Extent,
-        widening: &Widening,
+        packing: (&Widening, &Arc<Interner>),
     ) -> Result<Side<'c>, Trouble> {
-        let mut recipe = Recipe::new(coupling, place, extent, widening);
+        let mut recipe = Recipe::new(coupling, place, extent, packing);
         let stepper = recipe.first()?;
         let program = Arc::clone(&coupling.programs[place]);
         Ok(Side {

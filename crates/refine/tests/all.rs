@@ -2,6 +2,7 @@
 
 mod bmc;
 mod broken;
+mod checkpoint;
 mod computed;
 mod enumerated;
 mod growing;

@@ -16,7 +16,7 @@ use crate::naive::{changed, machine_with, rule};
 use crate::small::program;
 
 /// The rule with counters beside it, which go their own ways.
-fn counted(rule: &str) -> Arc<Program> {
+pub fn counted(rule: &str) -> Arc<Program> {
     let text = format!(
         "asm M\nimport StandardLibrary\nsignature:\ndomain N subsetof Integer\ndomain C subsetof Integer\n\
          monitored go: Boolean\ncontrolled n: N\ncontrolled h: Boolean\ncontrolled c1: C\ncontrolled c2: C\ncontrolled total: Integer\n\

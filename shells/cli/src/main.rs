@@ -13,6 +13,7 @@
 mod bench;
 mod chart;
 mod check;
+mod checkpoint;
 mod completions;
 mod conform;
 mod coverage;

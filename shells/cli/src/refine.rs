@@ -11,7 +11,7 @@ use ::report::{Fact, LivePart, RefinementCheck, render_refinement, render_refine
 use chart::Pictures;
 use clap::{Args, ValueEnum};
 use groundstate::inputs::bound;
-use groundstate::job::{self, Asked, Cancel, RefineEvent};
+use groundstate::job::{self, About, Ask, Cancel, How, RefineEvent};
 use groundstate::refine::{ABSTRACT, CONCRETE, Coupling, Extent, Options, Report, SIDES, Trouble, Verdict, read};
 use groundstate::reporting::{NoPage, refinement_page};
 use groundstate::tell::{Refinements, Standing, no_start, trace_of};
@@ -20,6 +20,7 @@ use groundstate::{Assumptions, Loaded, assume, refine, terms_of, verify_preserve
 use machine::Limits;
 use syntax::{FileId, SourceFile, Sources};
 
+use crate::checkpoint::Checkpoint;
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::files::{read_source, relative, write_text};
@@ -64,6 +65,9 @@ pub struct Arguments {
     /// The most time, in seconds
     #[arg(long, value_name = "SECONDS", value_parser = crate::limits::count)]
     time: Option<u64>,
+    /// Save the search in this file from time to time, and when a limit or Ctrl-C ends it; continue from the file if it exists
+    #[arg(long, value_name = "FILE")]
+    checkpoint: Option<PathBuf>,
     /// Verify of the abstract model the properties that come along to the concrete one
     #[arg(long)]
     properties: bool,
@@ -159,31 +163,31 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
             }
         }
     }
+    let checkpoint = match &arguments.checkpoint {
+        Some(path) => {
+            let fingerprints = models.map(|model| groundstate::fingerprint(&model.sources));
+            Some(Checkpoint::new(path, &fingerprints.each_ref().map(String::as_str))?)
+        }
+        None => None,
+    };
     interrupt::listen();
     interrupt::bound_memory(arguments.max_memory);
     let mut watch = Watch::new(arguments.time, shell.global.quiet || shell.json());
     let cancel = Cancel::from(interrupt::request().clone());
-    let started = match arguments.method {
-        Method::Explicit => job::refine(coupling, options, cancel),
-        // All questions together end with the time.
-        Method::Induction | Method::Bmc => {
-            let seconds = arguments.time.map_or(SECONDS, |time| u32::try_from(time).unwrap_or(u32::MAX));
-            let (asked, depth) = match arguments.method {
-                Method::Bmc => (Asked::Runs, DEPTH),
-                _ => (Asked::Induction, SHORT),
-            };
-            let depth = arguments.depth.unwrap_or(depth);
-            job::ask(asked, coupling, options, solvers(arguments.method)?, (seconds, depth), cancel)
-        }
+    let how = match arguments.method {
+        Method::Explicit => How::Search(checkpoint),
+        Method::Induction => How::Ask(ask(arguments, About::Induction, SHORT)?),
+        Method::Bmc => How::Ask(ask(arguments, About::Runs, DEPTH)?),
     };
-    let job = started.map_err(|error| Failure::usage(format!("the search cannot be started: {error}")))?;
+    let job = job::refine(coupling, options, how, cancel);
+    let job = job.map_err(|error| Failure::usage(format!("the search cannot be started: {error}")))?;
     while let Some(RefineEvent(progress)) = job.next_event() {
         let shown = Progress { states: progress.pairs, queue: progress.queue, ..Progress::default() };
         if !watch.at(&shown) {
             job.cancel().cancel();
         }
     }
-    let (outcome, coupling) = job.finish().unwrap_or_else(|crashed| panic!("{}", crashed.0));
+    let (outcome, coupling, checkpoint) = job.finish().unwrap_or_else(|crashed| panic!("{}", crashed.0));
     let verified = match &outcome {
         Ok(report) if arguments.properties => {
             Some(verify_abstract(&assumed[ABSTRACT], report, arguments, limits, &mut watch))
@@ -194,6 +198,12 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     let words = Refinements { models, coupling: &coupling, timed_out, all: arguments.all, verified: verified.as_ref() };
     let report = match outcome {
         Ok(report) => report,
+        Err(Trouble::Refused(refusal)) => {
+            return Err(checkpoint.map_or_else(
+                || Failure::usage("no checkpoint"),
+                |kept| kept.refused(refusal, "another coupling, other assumptions"),
+            ));
+        }
         Err(trouble) => return no_report(shell, &trouble, models),
     };
     if let (Some(folder), Some(proof)) = (&arguments.obligations, &report.proof) {
@@ -216,6 +226,7 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     {
         return Ok(Exit::World);
     }
+    checkpoint.map_or(Ok(()), Checkpoint::done)?;
     Ok(match report.verdict {
         Verdict::Refines => of_properties(&words, &report),
         Verdict::DoesNot(_) | Verdict::Vacuous(_) => Exit::Model,
@@ -259,6 +270,9 @@ fn assumed(
 fn fits_method(arguments: &Arguments) -> Result<(), Failure> {
     let refused = |option: &str, help: &str| Err(Failure::usage_with_help(option.to_string(), help));
     match arguments.method {
+        Method::Induction | Method::Bmc if arguments.checkpoint.is_some() => {
+            refused("--checkpoint is about the search of pairs of states", "leave out --checkpoint, or --method")
+        }
         Method::Explicit | Method::Bmc if arguments.obligations.is_some() => {
             refused("--obligations is about proofs", "add --method induction")
         }
@@ -297,6 +311,13 @@ fn solvers(method: Method) -> Result<Vec<Process>, Failure> {
         ));
     }
     Ok(both)
+}
+
+/// What solvers are asked; all questions together end with the time.
+fn ask(arguments: &Arguments, about: About, depth: u64) -> Result<Ask<Process>, Failure> {
+    let seconds = arguments.time.map_or(SECONDS, |time| u32::try_from(time).unwrap_or(u32::MAX));
+    let depth = arguments.depth.unwrap_or(depth);
+    Ok(Ask { about, solvers: solvers(arguments.method)?, seconds, depth })
 }
 
 /// Writes what was asked, one file a question.

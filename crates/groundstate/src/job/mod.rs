@@ -38,7 +38,7 @@ pub use generate::{
 pub use generate_tests::{TestsEvent, TestsJob, TestsRequest, generate_tests};
 pub use list::{ListEvent, ListJob, list};
 pub use mutate::{Hands, MutateEvent, MutateJob, Mutated, mutate};
-pub use refine::{Asked, RefineEvent, RefineJob, ask, refine};
+pub use refine::{About, Ask, How, RefineEvent, RefineJob, refine};
 pub use review::{ReviewEvent, ReviewJob, ReviewRequest, review};
 pub use run::{RunJob, RunRequest, at_once, report, run};
 pub use test::{TestEvent, test};

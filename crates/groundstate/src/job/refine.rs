@@ -1,11 +1,11 @@
 //! Decides a refinement, as a job.
 //!
-//! In: a coupling of two machines and options, and solvers where they are asked. Out: progress while the search goes on; at the end the
-//! report, or why there is none.
+//! In: a coupling of two machines and options; solvers where they are asked, or a keeper if the search is kept. Out: progress while it goes
+//! on; at the end the report, or why there is none.
 
 use std::io;
 
-use ::refine::{Coupling, Options, Progress, Provers, Report, Trouble};
+use ::refine::{Coupling, Keeper, Options, Progress, Provers, Report, Trouble, refine_kept};
 use solve::session::Solvers;
 
 use crate::job::{Cancel, Job};
@@ -14,58 +14,74 @@ use crate::job::{Cancel, Job};
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct RefineEvent(pub Progress);
 
-/// A refinement check: its result is the report, or why there is none, and the coupling.
-pub type RefineJob = Job<RefineEvent, (Result<Report, Trouble>, Coupling)>;
+/// A refinement check: its result is the report, or why there is none, the coupling, and the keeper that was passed in.
+pub type RefineJob<K> = Job<RefineEvent, (Result<Report, Trouble>, Coupling, Option<K>)>;
 
-/// Starts the check. If cancelled, it stops where it is and says what it knows by then.
-///
-/// # Errors
-/// The system cannot start a thread.
-pub fn refine(coupling: Coupling, mut options: Options, cancel: Cancel) -> io::Result<RefineJob> {
-    options.extents.iter_mut().for_each(|extent| extent.interrupt = cancel.interrupt().clone());
-    Job::start("refine", cancel, move |port| {
-        let mut watch = |progress: &Progress| {
-            port.mention(RefineEvent(*progress));
-            !port.is_cancelled()
-        };
-        let report = ::refine::refine(&coupling, &options, &mut watch);
-        (report, coupling)
-    })
+/// How it is decided.
+#[derive(Debug)]
+pub enum How<S, K> {
+    /// By looking at the pairs of states; with a keeper, the search goes on from its checkpoint.
+    Search(Option<K>),
+    /// By solvers.
+    Ask(Ask<S>),
 }
 
-/// How solvers are asked.
+/// What solvers are asked.
+#[derive(Debug)]
+pub struct Ask<S> {
+    /// What for.
+    pub about: About,
+    /// Whom.
+    pub solvers: Vec<S>,
+    /// The most seconds for a question.
+    pub seconds: u32,
+    /// The most steps of runs.
+    pub depth: u64,
+}
+
+/// What solvers are asked for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Asked {
+pub enum About {
     /// For a proof by induction, which two of them must accept; where it fails, for runs of a few steps.
     Induction,
     /// For runs that refute.
     Runs,
 }
 
-/// Starts to ask solvers, like [`refine()`]: so many seconds for a question, about runs of so many steps.
+/// Starts the check. If cancelled, it stops where it is and says what it knows by then.
 ///
 /// # Errors
 /// The system cannot start a thread.
-pub fn ask<S: Solvers + Send + 'static>(
-    asked: Asked,
+pub fn refine<S, K>(
     coupling: Coupling,
     mut options: Options,
-    mut solvers: Vec<S>,
-    (seconds, depth): (u32, u64),
+    how: How<S, K>,
     cancel: Cancel,
-) -> io::Result<RefineJob> {
+) -> io::Result<RefineJob<K>>
+where
+    S: Solvers + Send + 'static,
+    K: Keeper + Send + 'static,
+{
     options.extents.iter_mut().for_each(|extent| extent.interrupt = cancel.interrupt().clone());
     Job::start("refine", cancel, move |port| {
         let mut watch = |progress: &Progress| {
             port.mention(RefineEvent(*progress));
             !port.is_cancelled()
         };
-        let solvers = solvers.iter_mut().map(|solver| -> &mut dyn Solvers { solver }).collect();
-        let provers = Provers { solvers, seconds, depth };
-        let report = match asked {
-            Asked::Induction => ::refine::prove(&coupling, &options, provers, &mut watch),
-            Asked::Runs => ::refine::refute(&coupling, &options, provers, &mut watch),
-        };
-        (report, coupling)
+        match how {
+            How::Search(mut keeper) => {
+                let kept = keeper.as_mut().map(|keeper| -> &mut dyn Keeper { keeper });
+                (refine_kept(&coupling, &options, kept, &mut watch), coupling, keeper)
+            }
+            How::Ask(Ask { about, mut solvers, seconds, depth }) => {
+                let solvers = solvers.iter_mut().map(|solver| -> &mut dyn Solvers { solver }).collect();
+                let provers = Provers { solvers, seconds, depth };
+                let report = match about {
+                    About::Induction => ::refine::prove(&coupling, &options, provers, &mut watch),
+                    About::Runs => ::refine::refute(&coupling, &options, provers, &mut watch),
+                };
+                (report, coupling, None)
+            }
+        }
     })
 }

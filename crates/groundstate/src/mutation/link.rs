@@ -119,6 +119,7 @@ fn asked<F: Files>(
         Err(Trouble::Fault(..)) => Says::DoesNot(0),
         Err(Trouble::Unbounded(..)) => Says::Open("its initial states cannot be listed".to_string()),
         Err(Trouble::Stopped(_)) => Says::Open("the time was up".to_string()),
+        Err(Trouble::Refused(_)) => unreachable!("a checkpoint is refused where there is one"),
         Ok(report) => match report.verdict {
             Verdict::Refines => Says::Refines,
             Verdict::DoesNot(refutation) => Says::DoesNot(refutation.runs[CONCRETE].steps.len() as u64),

@@ -349,7 +349,7 @@ pub fn no_start(trouble: &Trouble, models: [&Loaded; 2]) -> Option<(usize, Diagn
             let Loaded { program, sources, .. } = models[*side];
             Some((*side, crate::diagnose_unbounded(unbounded, program, sources)))
         }
-        Trouble::Stopped(_) => None,
+        Trouble::Stopped(_) | Trouble::Refused(_) => None,
     }
 }
 

@@ -120,7 +120,7 @@ pub(super) fn again(
     let options = narrowed(coupling, options, unrolled, &values);
     let mut widenings: [Widening; 2] = Default::default();
     loop {
-        let begun = begin(coupling, &options, &widenings).map_err(|_| Again::Odd)?;
+        let begun = begin(coupling, &options, &widenings, None).map_err(|_| Again::Odd)?;
         let (side, widening) = match begun {
             Err(narrow) => narrow,
             Ok(mut product) => match played(&mut product, start, &run) {

@@ -70,7 +70,12 @@ pub(crate) struct Recipe<'c> {
 
 impl<'c> Recipe<'c> {
     /// Of one of the two machines.
-    pub fn new(coupling: &'c Coupling, place: usize, extent: &Extent, widening: &Widening) -> Recipe<'c> {
+    pub fn new(
+        coupling: &'c Coupling,
+        place: usize,
+        extent: &Extent,
+        packing: (&Widening, &Arc<Interner>),
+    ) -> Recipe<'c> {
         let program = &coupling.programs[place];
         let bounds = input_values(program, &extent.bounds, &extent.undefined);
         let mut settings = Settings { limits: extent.limits.clone(), bounds: Arc::new(bounds), ..Settings::default() };
@@ -85,7 +90,7 @@ impl<'c> Recipe<'c> {
         settings.read_in_steps = computed.as_ref().map(Computed::readers).unwrap_or_default();
         let shares = !coupling.shared[place].is_empty();
         let labelled = shares || computed.is_some() || !limited(program, extent).is_empty();
-        let (widening, interner, assumed) = (widening.clone(), Arc::default(), settings.conditions.len());
+        let (widening, interner, assumed) = (packing.0.clone(), Arc::clone(packing.1), settings.conditions.len());
         Recipe { coupling, place, settings, widening, interner, starts: None, labelled, assumed }
     }
 
@@ -94,6 +99,11 @@ impl<'c> Recipe<'c> {
         self.settings.interrupt = interrupt.clone();
         self.settings.limits.interrupt = interrupt.clone();
         self
+    }
+
+    /// The values that have numbers in the states.
+    pub fn interner(&self) -> &Interner {
+        &self.interner
     }
 
     /// The machine's values in the joint model.

@@ -6,7 +6,6 @@
 mod aside;
 pub mod beside;
 mod bounded;
-mod checkpoint;
 mod conflict;
 pub mod counterexample;
 mod disk;
@@ -32,6 +31,7 @@ use groundstate::{Loaded, Overlay, Said, own_files};
 
 use program::{Expression, PropertyKind};
 
+use crate::checkpoint::Checkpoint;
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::interrupt;
@@ -39,7 +39,6 @@ use crate::load::load;
 use crate::shell::Shell;
 use crate::solver::Process;
 pub use bounded::Bounded;
-use checkpoint::Checkpoint;
 use disk::Folder;
 use live::Live;
 pub use tell::Teller;
@@ -316,7 +315,7 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     let request = request.map_err(conflict::conflict)?;
     let solver = Process::find(arguments.solver.as_deref());
     let checkpoint = match &arguments.checkpoint {
-        Some(path) => Some(Checkpoint::new(path, &fingerprint)?),
+        Some(path) => Some(Checkpoint::new(path, &[&fingerprint])?),
         None => None,
     };
     let limits = shell.global.limits.uninterrupted();
@@ -345,7 +344,8 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     let mut report = match outcome {
         Ok(report) => report,
         Err(NoStart::Refused(refusal)) => {
-            return Err(checkpoint.map_or_else(|| Failure::usage("no checkpoint"), |kept| kept.refused(refusal)));
+            return Err(checkpoint
+                .map_or_else(|| Failure::usage("no checkpoint"), |kept| kept.refused(refusal, "other properties")));
         }
         Err(trouble) => return no_start(shell, &teller, trouble),
     };

@@ -1,6 +1,6 @@
 //! Keeps a checkpoint of a search in a file: words of eight bytes, little-endian.
 //!
-//! In: the path, the model's fingerprint. Out: a [`Keeper`]. The file gets its name when it is complete. INVARIANT: if
+//! In: the path, the fingerprints of the models. Out: a [`Keeper`]. The file gets its name when it is complete. INVARIANT: if
 //! the file makes trouble, the search goes on without it, and the first trouble is reported at the end.
 
 use std::fs::File;
@@ -32,8 +32,8 @@ pub struct Checkpoint {
 }
 
 impl Checkpoint {
-    /// The checkpoint of a model in a file, which may not exist yet.
-    pub fn new(path: &Path, fingerprint: &str) -> Result<Checkpoint, Failure> {
+    /// The checkpoint of models in a file, which may not exist yet.
+    pub fn new(path: &Path, fingerprints: &[&str]) -> Result<Checkpoint, Failure> {
         if path.is_dir() {
             return Err(Failure::Folder(path.to_path_buf()));
         }
@@ -41,7 +41,9 @@ impl Checkpoint {
         drop(Unfinished::create(path)?);
         Ok(Checkpoint {
             path: path.to_path_buf(),
-            model: u64::from_str_radix(fingerprint, 16).unwrap_or_default(),
+            model: fingerprints.iter().fold(0, |all: u64, fingerprint| {
+                all.rotate_left(1) ^ u64::from_str_radix(fingerprint, 16).unwrap_or_default()
+            }),
             last: Instant::now(),
             wait: BETWEEN,
             reading: None,
@@ -51,20 +53,20 @@ impl Checkpoint {
         })
     }
 
-    /// Why the search cannot continue from the file.
-    pub fn refused(self, refusal: Refusal) -> Failure {
+    /// Why the search cannot continue from the file; it asks about `what`.
+    pub fn refused(self, refusal: Refusal, what: &str) -> Failure {
         if let Some(failure) = self.failure {
             return failure;
         }
         let path = self.path.display();
-        let what = match refusal {
+        let message = match refusal {
             Refusal::Foreign => format!("{path} is not a checkpoint"),
             Refusal::Version => format!("{path} is a checkpoint of another version of groundstate"),
             Refusal::Model => format!("{path} is a checkpoint of another model, or of one that has changed since"),
-            Refusal::Question => format!("{path} is a checkpoint of a search with other properties, bounds or limits"),
+            Refusal::Question => format!("{path} is a checkpoint of a search with {what}, bounds or limits"),
             Refusal::Damaged => format!("{path} is damaged: it differs from what was written"),
         };
-        Failure::usage_with_help(what, "remove it to start over, or name another file")
+        Failure::usage_with_help(message, "remove it to start over, or name another file")
     }
 
     /// Ends the checkpoint; returns the first trouble with the file.
