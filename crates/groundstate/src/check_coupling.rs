@@ -7,7 +7,7 @@ use std::sync::Arc;
 use machine::Limits;
 use model::Loader;
 use program::Program;
-use refine::{Coupling, SIDES, read};
+use refine::{Coupling, SIDES, bad_coupling, read};
 use syntax::{FileId, SourceFile, Sources};
 
 use crate::load;
@@ -24,14 +24,17 @@ pub fn check_coupling(root: &SourceFile, loader: &mut dyn Loader) -> Findings {
     found
 }
 
+/// The coupling's own text.
+fn sources_of(root: &SourceFile) -> Sources {
+    let mut sources = Sources::default();
+    sources.add(root.clone());
+    sources
+}
+
 fn written_well(root: &SourceFile, loader: &mut dyn Loader) -> Findings {
     let written = match read(FileId(0), &root.text) {
         Ok(written) => written,
-        Err(fault) => {
-            let mut sources = Sources::default();
-            sources.add(root.clone());
-            return Findings { faults: vec![(sources, vec![*fault])], open: None };
-        }
+        Err(fault) => return Findings { faults: vec![(sources_of(root), vec![*fault])], open: None },
     };
     let mut programs: Vec<Arc<Program>> = Vec::new();
     for (side, named) in written.models.iter().enumerate() {
@@ -40,7 +43,10 @@ fn written_well(root: &SourceFile, loader: &mut dyn Loader) -> Findings {
         };
         let source = match loader.load(root, &named.text) {
             Ok(source) => source,
-            Err(reason) => return Findings::not_checked(format!("{}: {reason}", named.text)),
+            Err(reason) => {
+                let fault = bad_coupling(named.span, reason.to_string());
+                return Findings { faults: vec![(sources_of(root), vec![*fault])], open: None };
+            }
         };
         match load(source, loader) {
             Ok(loaded) => programs.push(loaded.program),

@@ -371,6 +371,10 @@ impl Builder {
             let begins = ["forall", "exist", "exists"]
                 .iter()
                 .any(|word| part.text.strip_prefix(word).is_some_and(|rest| rest.starts_with(char::is_whitespace)));
+            // Behind the term all is blank, too.
+            for fault in &mut faults {
+                fault.message = fault.message.replace("the end of the file", "the end of the statement");
+            }
             for fault in faults.iter_mut().filter(|fault| fault.primary.span.start < part.span.start) {
                 fault.primary.span = self.place(part);
                 if begins {

@@ -44,7 +44,7 @@ pub use coupling::{Coupling, Faulty};
 pub use diagram::{Diagram, Diagrams, MOST};
 pub use evidence::{Ended, Refutation, Run, Segment, Tried};
 pub use explore::checkpoint::{Keeper, Refusal};
-pub use fault::IDS;
+pub use fault::{IDS, bad_coupling};
 pub use formulas::ask::Provers;
 pub use formulas::obligation::{Obligation, Origin, SOLVERS, Said};
 pub use induction::proof::{Attempt, Gap, Known, Proof, Stuck};

@@ -16,6 +16,7 @@
 asm ControllerProgram
 
 import ../../../library/std/StandardLibrary
+import ../../../library/std/CTLLibrary
 
 export *
 
@@ -460,6 +461,11 @@ definitions:
 	invariant inv_noLostWakeUp over raised:
 		place(SERVOING) = DOZING and available
 		implies (raised or (at(CAMERA) = IMAGE and contains({MARKING, RELEASING, RAISING}, place(CAMERA))))
+
+	// no thread is ever cut off from the end of its cycle
+	CTLSPEC ctlSpec_camera: ag(ef(place(CAMERA) = RAISING))
+	CTLSPEC ctlSpec_servoing: ag(ef(at(SERVOING) = SET_POINT and place(SERVOING) = RELEASING))
+	CTLSPEC ctlSpec_robot: ag(ef(at(ROBOT) = MOTION and place(ROBOT) = RELEASING))
 
 	main rule r_Main =
 		r_anyThread[]

@@ -12,7 +12,9 @@ use chart::Pictures;
 use clap::{Args, ValueEnum};
 use groundstate::inputs::bound;
 use groundstate::job::{self, About, Ask, Cancel, How, RefineEvent};
-use groundstate::refine::{ABSTRACT, CONCRETE, Coupling, Extent, Options, Report, SIDES, Trouble, Verdict, read};
+use groundstate::refine::{
+    ABSTRACT, CONCRETE, Coupling, Extent, Options, Report, SIDES, Trouble, Verdict, bad_coupling, read,
+};
 use groundstate::reporting::{NoPage, refinement_page};
 use groundstate::tell::{Refinements, Standing, no_start, trace_of};
 use groundstate::verify::{Outcome, Progress, Subject};
@@ -414,7 +416,13 @@ fn question(shell: &mut Shell, arguments: &Arguments) -> Result<Result<Question,
                     let message = format!("{} does not name the {word} model", path.display());
                     return Err(Failure::usage_with_help(message, help));
                 };
-                named.push(folder.join(&model.text));
+                let path = folder.join(&model.text);
+                if !path.exists() {
+                    let fault = bad_coupling(model.span, format!("there is no file {}", path.display()));
+                    shell.diagnostic(&sources, &fault)?;
+                    return Ok(Err(Exit::World));
+                }
+                named.push(path);
             }
             let Ok(named) = <[PathBuf; 2]>::try_from(named) else { unreachable!("there are two sides") };
             named
