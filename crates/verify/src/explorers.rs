@@ -29,6 +29,11 @@ impl Maker {
         Maker { program: Arc::clone(program), settings, widening: widening.clone(), interner, starts: None }
     }
 
+    /// The same, where these values have numbers already.
+    pub fn knowing(self, interner: Arc<Interner>) -> Maker {
+        Maker { interner, ..self }
+    }
+
     /// What did not fit before.
     #[cfg(test)]
     pub fn widening(&self) -> &Widening {

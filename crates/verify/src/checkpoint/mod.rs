@@ -1,23 +1,19 @@
 //! Checkpoints: keeps a search while it runs, and continues it later.
 //!
-//! In: the shards of a search between two rounds. Out: a checkpoint, and shards from one. States are packed as in this
-//! process: some values have numbers (those of a location over an infinite domain, or of a growing domain), which
-//! depend on the order in which they first appeared. The checkpoint does not contain these numbers. It lists the states
-//! whose steps introduced new values, and the machine repeats those steps in order. It does the same for steps that
-//! showed a layout to be too narrow. INVARIANT: a search that continues from a checkpoint ends as it would have without
-//! it.
+//! In: the shards of a search between two rounds. Out: a checkpoint, and shards from one. States are packed as in this process: some values
+//! have numbers (those of a location over an infinite domain, or of a growing domain), which depend on the order in which they first
+//! appeared. The checkpoint has these values with their numbers, and what the layout was found too narrow for. INVARIANT: a search that
+//! continues from a checkpoint ends as it would have without it.
 
 mod identity;
-pub(crate) mod journal;
 
 use std::sync::Arc;
 
-use explore::checkpoint::{Keeper, Kind, Reader, Refusal, Writer, layout};
-use explore::{Explorer, Trouble, Unbounded, Widening};
+use explore::checkpoint::{Keeper, Kind, Known, Reader, Refusal, Words, Writer, layout};
+use explore::{Explorer, Interner, Trouble, Unbounded, Widening};
 use program::Program;
 
 use crate::checkpoint::identity::question;
-use crate::checkpoint::journal::Journal;
 use crate::explicit::shard::{Shard, owner};
 use crate::explorers::Maker;
 use crate::partial_order::{Unreduced, reduction};
@@ -26,36 +22,14 @@ use crate::storage::Store;
 use crate::target::{Found, Target};
 
 /// What these checkpoints are of.
-const KIND: Kind = Kind { name: b"gsverify", version: 5 };
-
-/// The attempts before the present one, which ended because states did not fit.
-#[derive(Debug, Clone, Default)]
-pub(crate) struct Past {
-    /// What did not fit so far.
-    pub widening: Widening,
-    /// For each attempt: the words of a state, the number of states, and the states whose steps introduced new values;
-    /// the last of these did not fit.
-    attempts: Vec<u64>,
-}
-
-impl Past {
-    /// Ends an attempt because the steps of a state do not fit.
-    pub fn close(&mut self, shard: &Shard, words: usize, more: &Widening) {
-        let places = shard.journal.iter().flat_map(|journal| &journal.places).map(|place| *place as usize);
-        let culprit = if shard.is_retried { shard.next } else { shard.next - 1 };
-        let places: Vec<usize> = places.filter(|place| *place != culprit).chain([culprit]).collect();
-        self.attempts.extend([words as u64, places.len() as u64]);
-        places.iter().for_each(|place| self.attempts.extend(shard.store.state(*place)));
-        self.widening.merge(more);
-    }
-}
+const KIND: Kind = Kind { name: b"gsverify", version: 6 };
 
 /// A checkpoint that was read but not yet interpreted.
 struct Kept {
     question: u64,
+    /// What the states are packed with.
+    packing: Vec<u64>,
     numbers: Vec<u64>,
-    attempts: Vec<u64>,
-    journal: Vec<u64>,
     unknown: Vec<u64>,
     unbounded: Vec<u64>,
     executed: Vec<u64>,
@@ -66,7 +40,7 @@ struct Kept {
 
 /// A search to continue.
 pub(crate) struct Resumed {
-    pub past: Past,
+    pub widening: Widening,
     pub maker: Maker,
     pub explorer: Explorer,
     pub shards: Vec<Shard>,
@@ -91,8 +65,7 @@ pub(crate) fn keep(
     program: &Program,
     plan: &Plan,
     explorer: &Explorer,
-    numbers: usize,
-    past: &Past,
+    (widening, interner): (&Widening, &Interner),
     shards: &[Shard],
 ) {
     let words = explorer.words();
@@ -108,10 +81,11 @@ pub(crate) fn keep(
     };
     let transitions: u64 = shards.iter().map(|shard| shard.transitions).sum();
     let blocked: u64 = shards.iter().map(|shard| shard.blocked).sum();
-    writer.section(&[words as u64, layout(explorer), numbers as u64, transitions, blocked, expanded as u64]);
-    writer.section(&past.attempts);
-    let journal = shards[0].journal.as_ref();
-    writer.section(journal.map_or(&[], |journal| &journal.places));
+    let mut packing = Vec::new();
+    widening.keep(&mut packing);
+    interner.keep(&mut packing);
+    writer.section(&packing);
+    writer.section(&[words as u64, layout(explorer), transitions, blocked, expanded as u64]);
     let unknown: Vec<u64> = shards.iter().flat_map(|shard| &shard.unknown).map(|condition| *condition as u64).collect();
     writer.section(&unknown);
     let unbounded: Vec<u64> = shards.iter().flat_map(|shard| &shard.unbounded).flat_map(Unbounded::words).collect();
@@ -158,9 +132,8 @@ fn read(keeper: &mut dyn Keeper) -> Result<Option<Kept>, Refusal> {
     let of_model = reader.word()?;
     let mut kept = Kept {
         question: reader.word()?,
+        packing: reader.section()?,
         numbers: reader.section()?,
-        attempts: reader.section()?,
-        journal: reader.section()?,
         unknown: reader.section()?,
         unbounded: reader.section()?,
         executed: reader.section()?,
@@ -176,29 +149,19 @@ fn read(keeper: &mut dyn Keeper) -> Result<Option<Kept>, Refusal> {
 
 impl Kept {
     fn understood(self, program: &Arc<Program>, plan: &Plan) -> Result<Resumed, Unfit> {
-        let [words, fields, numbers, transitions, blocked, expanded] = self.numbers[..] else {
+        let [words, fields, transitions, blocked, expanded] = self.numbers[..] else {
             return Err(Refusal::Damaged.into());
         };
-        let mut past = Past { widening: Widening::default(), attempts: self.attempts.clone() };
-        let mut attempts = &self.attempts[..];
-        while let [words, count, rest @ ..] = attempts {
-            let (words, count) = (*words as usize, *count as usize);
-            let states = words.checked_mul(count).filter(|len| *len <= rest.len() && *len > 0);
-            let (states, rest) = rest.split_at(states.ok_or(Refusal::Damaged)?);
-            attempts = rest;
-            let (_, mut explorer) = made(program, plan, &mut past.widening)?;
-            if explorer.words() != words {
-                return Err(Refusal::Damaged.into());
-            }
-            let _ = reduction(program, plan, &mut explorer);
-            let (before, last) = states.split_at(states.len() - words);
-            before.chunks_exact(words).try_for_each(|state| again(&mut explorer, state))?;
-            match explorer.expand(last, &mut Vec::new()).and_then(|_| explorer.paths(last, &mut |_| {})) {
-                Err(more) => past.widening.merge(&more),
-                Ok(_) => return Err(Refusal::Damaged.into()),
-            }
-        }
-        let (maker, mut explorer) = made(program, plan, &mut past.widening)?;
+        let (mut packing, known) = (Words::new(&self.packing), Known(program));
+        let widening = Widening::again(&mut packing, known)?;
+        let interner = Arc::new(Interner::again(&mut packing, known)?);
+        packing.end()?;
+        let mut maker = Maker::new(program, plan, &widening).knowing(interner);
+        let mut explorer = match maker.first() {
+            Ok(explorer) => explorer,
+            Err(Trouble::TooNarrow(_)) => return Err(Refusal::Damaged.into()),
+            Err(trouble) => return Err(Unfit::Trouble(trouble)),
+        };
         let maker = maker.tireless();
         explorer.ignore_interrupts();
         if explorer.words() as u64 != words || layout(&explorer) != fields {
@@ -206,7 +169,7 @@ impl Kept {
         }
         let words = words as usize;
         let (reduction, unreduced) = reduction(program, plan, &mut explorer);
-        let count = if maker.interner.is_empty() { plan.workers.max(1) } else { 1 };
+        let count = plan.workers.max(1);
         let mut shards: Vec<Shard> =
             (0..count).map(|_| Shard::new(Store::new(words, plan.storage, plan.seed, count), &reduction)).collect();
         let current = self.states.len().checked_sub(2);
@@ -225,21 +188,6 @@ impl Kept {
                 shards.iter_mut().for_each(|shard| shard.levels.push(shard.store.len()));
             }
         }
-        if !maker.interner.is_empty() {
-            let mut journal = Journal::new(&maker.interner);
-            for place in &self.journal {
-                let state: Box<[u64]> = match *place < shards[0].store.len() as u64 {
-                    true => shards[0].store.state(*place as usize).into(),
-                    false => return Err(Refusal::Damaged.into()),
-                };
-                again(&mut explorer, &state)?;
-                journal.note(*place as usize);
-            }
-            if maker.interner.len() as u64 != numbers || journal.places != self.journal {
-                return Err(Refusal::Damaged.into());
-            }
-            shards[0].journal = Some(journal);
-        }
         let shard = &mut shards[0];
         shard.transitions = transitions;
         shard.blocked = blocked;
@@ -256,13 +204,8 @@ impl Kept {
             let target = to_target(found[0], found[1] as usize).ok_or(Refusal::Damaged)?;
             shard.found.push(Found { target, depth: found[2] as usize, state: found[3..].into() });
         }
-        Ok(Resumed { past, maker, explorer, shards, unreduced })
+        Ok(Resumed { widening, maker, explorer, shards, unreduced })
     }
-}
-
-/// Repeats the steps of a state.
-fn again(explorer: &mut Explorer, state: &[u64]) -> Result<(), Refusal> {
-    explorer.expand(state, &mut Vec::new()).map(|_| ()).map_err(|_| Refusal::Damaged)
 }
 
 /// An explorer whose initial states fit.

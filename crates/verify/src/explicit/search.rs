@@ -15,8 +15,7 @@ use program::Program;
 use syntax::Span;
 
 use crate::again::made_again;
-use crate::checkpoint::journal::Journal;
-use crate::checkpoint::{Past, Resumed, Unfit, keep, made, resume};
+use crate::checkpoint::{Resumed, Unfit, keep, made, resume};
 use crate::explicit::anew::packed_anew;
 use crate::explicit::crew::Crew;
 use crate::explicit::edges::{Edges, OWNERS};
@@ -81,7 +80,7 @@ impl Search {
             Some(keeper) => resume(*keeper, program, plan)?,
             None => None,
         };
-        let mut past = Past::default();
+        let mut widening = Widening::default();
         let mut plan = plan.clone();
         let mut symmetry = plan.symmetry.then(|| Interchange::new(program, &plan));
         let (mut growth, mut anew) = (Growth::default(), None);
@@ -89,11 +88,11 @@ impl Search {
             plan.settings.unordered = symmetry.as_ref().map(|found| Arc::clone(&found.unordered)).unwrap_or_default();
             let Begun { maker, mut explorer, mut shards, unreduced, starts } = match (anew.take(), resumed.take()) {
                 (Some(begun), _) => begun,
-                (None, Some(Resumed { past: before, maker, explorer, shards, unreduced })) => {
-                    past = before;
+                (None, Some(Resumed { widening: before, maker, explorer, shards, unreduced })) => {
+                    widening = before;
                     Begun { maker, explorer, shards, unreduced, starts: Initial::NONE }
                 }
-                (None, None) => begun(program, &plan, keeper.is_some(), &mut past, &mut symmetry)?,
+                (None, None) => begun(program, &plan, keeper.is_some(), &mut widening, &mut symmetry)?,
             };
             if let Some(found) = &symmetry
                 && found.unordered.is_empty() != plan.settings.unordered.is_empty()
@@ -101,7 +100,7 @@ impl Search {
                 // No elements are interchangeable after all, so quantifiers need not look at all elements.
                 continue;
             }
-            let kept = keeper.as_mut().map(|keeper| (&mut **keeper, &past));
+            let kept = keeper.as_mut().map(|keeper| (&mut **keeper, &widening));
             let counts = !growth.has_begun && kept.is_none() && may_be_shorter(&explorer, &shards);
             let (stop, progress, mut rooms) =
                 search(&maker, &mut explorer, &mut shards, starts, &plan, (kept, counts), heed);
@@ -110,8 +109,8 @@ impl Search {
                 rooms = Some(explorer.more_room(&narrow, growth.hurries_at(progress.states)));
             }
             if let Some(rooms) = rooms {
-                past.widening.settle(rooms);
-                anew = Begun { maker, explorer, shards, unreduced, starts: Initial::NONE }.anew(&plan, &past.widening);
+                widening.settle(rooms);
+                anew = Begun { maker, explorer, shards, unreduced, starts: Initial::NONE }.anew(&plan, &widening);
                 continue;
             }
             if let Some(span) = ordered(&shards)
@@ -121,7 +120,7 @@ impl Search {
                 continue;
             }
             match shards.iter().find(|shard| !shard.widening.is_empty()) {
-                Some(shard) => past.close(shard, explorer.words(), &shard.widening),
+                Some(shard) => widening.merge(&shard.widening),
                 None => {
                     let symmetry = symmetry.map(|found| found.symmetry);
                     let search = Search::gather(maker, explorer, &plan, shards, stop, progress);
@@ -208,19 +207,17 @@ fn begun(
     program: &Arc<Program>,
     plan: &Plan,
     is_kept: bool,
-    past: &mut Past,
+    widening: &mut Widening,
     symmetry: &mut Option<Interchange>,
 ) -> Result<Begun, Unfit> {
-    let (mut maker, mut explorer) = made(program, plan, &mut past.widening)?;
+    let (mut maker, mut explorer) = made(program, plan, widening)?;
     if is_kept {
-        // A checkpoint needs complete results: each state with its conditions, and the values that its steps introduce.
+        // A checkpoint needs complete results: each state with its conditions.
         maker = maker.tireless();
         explorer.ignore_interrupts();
     }
     let orbits = symmetry.as_mut().and_then(|found| found.orbits(program, &explorer));
-    // The order in which values appear can be reproduced only for one worker.
-    let is_numbered = is_kept && !maker.interner.is_empty();
-    let count = if is_numbered { 1 } else { plan.workers.max(1) };
+    let count = plan.workers.max(1);
     let (reduction, unreduced) = reduction(program, plan, &mut explorer);
     let store = || match &plan.disk {
         Some(disk) => Store::with_disk(explorer.words(), disk, plan.max_bytes / count as u64),
@@ -228,7 +225,6 @@ fn begun(
     };
     let mut shards: Vec<Shard> = (0..count).map(|_| Shard::new(store(), &reduction)).collect();
     shards.iter_mut().for_each(|shard| shard.orbits.clone_from(&orbits));
-    shards[0].journal = is_numbered.then(|| Journal::new(&maker.interner));
     let whole = plan.storage == Storage::Exact && plan.disk.is_none() && reduction.is_none() && orbits.is_none();
     // LIMIT: a state of one word has no index in its table, and a checkpoint keeps no edges.
     if plan.edges && whole && !is_kept && explorer.words() > 1 && count <= OWNERS {
@@ -319,7 +315,7 @@ fn search<'k>(
     shards: &mut [Shard],
     mut starts: Initial,
     plan: &Plan,
-    (mut kept, mut counts): (Option<(&mut (dyn Keeper + 'k), &Past)>, bool),
+    (mut kept, mut counts): (Option<(&mut (dyn Keeper + 'k), &Widening)>, bool),
     heed: &mut Heed<'_>,
 ) -> (Option<Stop>, Progress, Option<Rooms>) {
     let mut progress = Progress::default();
@@ -359,12 +355,12 @@ fn search<'k>(
                 continue;
             }
         }
-        let Some((keeper, past)) = &mut kept else { return (stop, progress, None) };
+        let Some((keeper, widening)) = &mut kept else { return (stop, progress, None) };
         if shards.iter().any(|shard| !shard.widening.is_empty() || shard.store.is_full()) {
             return (stop, progress, None);
         }
         if paused || stop.is_some() {
-            keep(*keeper, &maker.program, plan, explorer, maker.interner.len(), past, shards);
+            keep(*keeper, &maker.program, plan, explorer, (widening, &maker.interner), shards);
         } else {
             keeper.remove();
         }

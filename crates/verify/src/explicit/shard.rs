@@ -9,7 +9,6 @@ use std::sync::Arc;
 use explore::{Expansion, Explorer, Orbits, Truth, Unbounded, Widening, hash};
 use syntax::Span;
 
-use crate::checkpoint::journal::Journal;
 use crate::explicit::edges::{Edges, LEFT_OUT};
 use crate::explicit::lineage::Lineage;
 use crate::explicit::tally::Tally;
@@ -47,8 +46,6 @@ pub(crate) struct Shard {
     pub unbounded: BTreeSet<Unbounded>,
     /// How often each rule ran; only whether it is 0 matters.
     pub executed: Vec<u64>,
-    /// For a checkpoint with numbered values: which states' steps introduced new values.
-    pub journal: Option<Journal>,
     /// The partial-order reduction, if it is used.
     pub reduction: Option<Arc<Reduction>>,
     /// The symmetry reduction, if it is used.
@@ -113,7 +110,6 @@ impl Shard {
             is_retried: false,
             unbounded: BTreeSet::new(),
             executed: Vec::new(),
-            journal: None,
             reduction: reduction.clone(),
             orbits: None,
             order_mattered: None,
@@ -224,9 +220,6 @@ impl Shard {
                         if !self.widening.is_empty() {
                             return true;
                         }
-                    }
-                    if let Some(journal) = &mut self.journal {
-                        journal.note(self.next - 1);
                     }
                 }
                 Err(widening) => {
