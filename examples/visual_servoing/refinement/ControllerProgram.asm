@@ -46,6 +46,9 @@ signature:
 	// the channels whose arrays an elaboration uses where they are
 	static readInPlace: Thread -> Powerset(Channel)
 	static writtenInPlace: Thread -> Channel
+	// what comes after a lock in a thread's cycle: where it goes on, and at which channel
+	static afterLock: Prod(Thread, Channel) -> Place
+	static following: Prod(Thread, Channel) -> Channel
 
 	// The program's: the locks, the buffers' members, the arrays, the signal
 	controlled holder: Channel -> Thread
@@ -112,6 +115,27 @@ definitions:
 
 	function writtenInPlace($t in Thread) =
 		if $t = SERVOING then SET_POINT else MOTORS endif
+
+	// A slave's access has ended then, and so has a master's writing; a master reads.
+	function afterLock($t in Thread, $c in Channel) =
+		switch $t
+			case CAMERA: RAISING
+			case SERVOING: if $c = SET_POINT then RESTING else TAKING endif
+			otherwise
+				switch $c
+					case SET_POINT: ACQUIRING
+					case ENCODERS: TAKING
+					case MOTORS: ACQUIRING
+					otherwise RESTING
+				endswitch
+		endswitch
+
+	function following($t in Thread, $c in Channel) =
+		if $t = ROBOT and $c = SET_POINT then
+			ENCODERS
+		else
+			if $c = MOTORS then MOTION else $c endif
+		endif
 
 	// What visual servoing asks: the number offered is not the one that it received.
 	function available =
@@ -200,16 +224,14 @@ definitions:
 		endif
 
 	// The watchdog has ended: nothing new is read, or what was to be written is lost.
-	rule r_giveUp($t in Thread) =
-		if at($t) = SET_POINT then
-			par
-				fresh(SET_POINT) := false
-				at($t) := ENCODERS
-				place($t) := ACQUIRING
-			endpar
-		else
-			place($t) := RESTING
-		endif
+	rule r_giveUp($t in Thread, $c in Channel) =
+		par
+			if not isWriter($t, $c) then
+				fresh($c) := false
+			endif
+			at($t) := following($t, $c)
+			place($t) := if $t = CAMERA then RESTING else afterLock($t, $c) endif
+		endpar
 
 	// The index section: the array that was written is the one that is read, and the next one in the ring will be written.
 	rule r_swap($c in Channel) =
@@ -313,50 +335,16 @@ definitions:
 			if holder($c) = $t then
 				r_handOn[$t, $c]
 			endif
-			switch $c
-				case IMAGE:
-					if $t = CAMERA then
-						place($t) := RAISING
-					else
-						place($t) := TAKING
-					endif
-				case MOTION:
-					if $t = ROBOT then
-						place($t) := RESTING
-					else
-						place($t) := TAKING
-					endif
-				case SET_POINT:
-					if $t = ROBOT then
-						par
-							at($t) := ENCODERS
-							place($t) := ACQUIRING
-						endpar
-					else
-						place($t) := RESTING
-					endif
-				case ENCODERS:
-					place($t) := TAKING
-				case MOTORS:
-					par
-						at($t) := MOTION
-						place($t) := ACQUIRING
-					endpar
-			endswitch
+			at($t) := following($t, $c)
+			place($t) := afterLock($t, $c)
 		endpar
 
 	// A master reads after the lock: nobody else moves the index.
 	rule r_take($t in Thread, $c in Channel) =
 		par
 			r_look[$c]
-			if $c = IMAGE then
-				par
-					at($t) := MOTION
-					place($t) := ACQUIRING
-				endpar
-			else
-				place($t) := ELABORATING
-			endif
+			at($t) := if $c = IMAGE then MOTION else $c endif
+			place($t) := if $c = IMAGE then ACQUIRING else ELABORATING endif
 		endpar
 
 	rule r_raise =
@@ -374,7 +362,7 @@ definitions:
 			case DOZING: place($t) := RESTING
 			case ELABORATING: r_elaborate[$t]
 			case ACQUIRING: r_acquire[$t, at($t)]
-			case ASLEEP: r_giveUp[$t]
+			case ASLEEP: r_giveUp[$t, at($t)]
 			case INSIDE: r_goIn[$t, at($t)]
 			case COPYING: r_copy[$t, at($t)]
 			case MARKING: r_mark[$t, at($t)]
