@@ -35,11 +35,6 @@ impl Dictionary {
         &self.numbers
     }
 
-    /// Gives a value that it does not have the next code, however many there are.
-    pub fn again(&mut self, number: u32) {
-        self.add(number);
-    }
-
     /// The code of a value that it has.
     #[inline]
     pub fn code(&self, number: u32) -> Option<u32> {
@@ -70,7 +65,8 @@ impl Dictionary {
         }
     }
 
-    fn add(&mut self, number: u32) -> u32 {
+    /// Gives a value that it does not have the next code, however many there are.
+    pub fn add(&mut self, number: u32) -> u32 {
         let code = self.numbers.len() as u32;
         self.numbers.push(number);
         let place = number as usize;

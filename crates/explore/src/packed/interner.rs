@@ -137,7 +137,7 @@ impl Interner {
         let few: Vec<Vec<u32>> = words.many(|words| words.many(|words| words.number()))?;
         for (location, numbers) in few.into_iter().enumerate() {
             let dictionary = tables.dictionary(location as u32);
-            numbers.into_iter().for_each(|number| dictionary.again(number));
+            numbers.into_iter().for_each(|number| _ = dictionary.add(number));
         }
         let count = tables.values.items.len();
         match tables.few.iter().flat_map(Dictionary::numbers).all(|number| (*number as usize) < count) {
