@@ -117,6 +117,19 @@ fn a_machine_that_begins_where_its_rule_does_nothing() {
     );
 }
 
+/// What a machine calls may set other locations of its control function, also before the machine's own in the text.
+#[test]
+fn a_machine_whose_action_sets_another_location_of_its_control_function() {
+    let text = "asm Two\nimport StandardLibrary\nsignature:\n enum domain Thread = {ONE | OTHER}\n enum domain Place = {RESTING | WORKING | ASLEEP}\n\
+        controlled place: Thread -> Place\ndefinitions:\n\
+        rule r_begin($t in Thread) = switch $t case ONE: place(ONE) := ASLEEP case OTHER: place(OTHER) := WORKING endswitch\n\
+        rule r_step($t in Thread) = switch place($t) case RESTING: r_begin[$t] case WORKING: place($t) := RESTING\n\
+        case ASLEEP: place($t) := WORKING endswitch\n\
+        main rule r_Main = choose $t in Thread with true do r_step[$t]\ndefault init s0: function place($t in Thread) = RESTING";
+    let (extracted, _) = kept(&SourceFile::new("Two.asm", text), &mut Texts::of([("Two.asm", text)]));
+    assert_eq!(extracted.chart.machines.len(), 1);
+}
+
 #[test]
 fn a_machine_that_unsets_its_control_location() {
     shows(

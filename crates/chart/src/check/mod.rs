@@ -19,7 +19,7 @@ use solve::Solver;
 use syntax::{Diagnostic, Severity, Span, SyntaxKind};
 
 use crate::begin::{self, Otherwise};
-use crate::build::{call, machine_rule, rule_name, state_value};
+use crate::build::{call, control_location, machine_rule, rule_name, state_value};
 use crate::chart::{Chart, Control, Machine, ShapeKind};
 use crate::differ::{by_effect, difference};
 use crate::extract::{controls, origins};
@@ -201,13 +201,7 @@ fn one(chart: &Chart, machine: &Machine, probe: &str, model: &Model, faults: &mu
         }
     }
     let names: Vec<String> = machine.parameters.iter().map(|parameter| parameter.variable.clone()).collect();
-    let control = match &machine.control {
-        Some(Control::Linked(link)) => Some(link.name.as_str()),
-        Some(Control::Made { name, .. }) => Some(name.as_str()),
-        None => None,
-    };
-    let location =
-        controls(model, probe).into_iter().find(|(id, _)| Some(model.function(*id).name.as_str()) == control);
+    let location = compared(machine, model, probe);
     let controlled = location.as_ref().map(|(id, _)| *id);
     if let Some(otherwise) = begin::otherwise(chart, machine, model, rule, controlled) {
         let first = machine.initial().map_or(machine.span, |id| machine.shape(id).span);
@@ -240,6 +234,17 @@ fn one(chart: &Chart, machine: &Machine, probe: &str, model: &Model, faults: &mu
             }
         }
     }
+}
+
+/// The control location of a machine as its own rule, which is given, writes it. The rule may also set other locations of the same
+/// function, in what it calls.
+fn compared(machine: &Machine, model: &Model, probe: RuleId) -> Option<(FunctionId, String)> {
+    let control = control_location(machine)?;
+    let bare = |text: &str| text.replace(char::is_whitespace, "");
+    let name = |text: &str| text.split('(').next().map(bare);
+    let same = controls(model, probe).into_iter().filter(|(_, location)| name(location) == name(&control));
+    let (exactly, others): (Vec<_>, Vec<_>) = same.partition(|(_, location)| bare(location) == bare(&control));
+    exactly.into_iter().chain(others).next()
 }
 
 fn reason_span(reason: Reason) -> Option<Span> {
