@@ -169,25 +169,25 @@ fn attempt<'k>(
     let parents = Parents::of(&product);
     let hopeful = solve(&product, &parents, Rules::of(&product, true));
     let bounded = of_proof(&product, &options.extents);
-    let verdict = match said {
+    let verdict = match (said, &broken) {
         // With other values of inputs there may be initial states.
-        Says::Nothing(Vacuous::NoStart(side)) if !product.sides[side].limited.is_empty() => {
+        (Says::Nothing(Vacuous::NoStart(side)), _) if !product.sides[side].limited.is_empty() => {
             let limited = product.sides[side].limited.keys();
             Verdict::Unknown(limited.map(|input| Why::Bounded(side, *input)).collect())
         }
         // So there may be one that corresponds.
-        Says::Nothing(Vacuous::NoInitialPair(_)) if hopeful.won => {
+        (Says::Nothing(Vacuous::NoInitialPair(_)), _) if hopeful.won => {
             unclear(&product, &mut whys);
             Verdict::Unknown(whys.0)
         }
-        Says::Nothing(vacuous @ (Vacuous::NoStart(_) | Vacuous::NoInitialPair(_))) => Verdict::Vacuous(vacuous),
+        (Says::Nothing(vacuous @ (Vacuous::NoStart(_) | Vacuous::NoInitialPair(_))), _) => Verdict::Vacuous(vacuous),
         // What cannot be answered is a fault, whatever else the coupling says.
         _ if !hopeful.won => Verdict::DoesNot(Box::new(evidence::refutation(&mut product, &hopeful))),
-        _ if let Some(broken) = &broken => Verdict::DoesNot(Box::new(evidence::breaks(&mut product, broken))),
+        (_, Some(broken)) => Verdict::DoesNot(Box::new(evidence::breaks(&mut product, broken))),
         // With other values of inputs there may be states that it tells apart.
-        Says::Nothing(_) if !bounded.is_empty() => Verdict::Unknown(bounded),
-        Says::Nothing(vacuous) => Verdict::Vacuous(vacuous),
-        said @ (Says::Something | Says::Perhaps(_)) => {
+        (Says::Nothing(_), None) if !bounded.is_empty() => Verdict::Unknown(bounded),
+        (Says::Nothing(vacuous), None) => Verdict::Vacuous(vacuous),
+        (said @ (Says::Something | Says::Perhaps(_)), None) => {
             let rules = Rules::of(&product, false);
             // Where all is clear nothing counts for either.
             let sure = match is_complete && !is_unclear(&product) {

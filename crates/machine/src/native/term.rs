@@ -45,6 +45,12 @@ impl Translator<'_, '_> {
         program.term_list(list).iter().map(|term| self.term(*term)).collect()
     }
 
+    /// What a term makes of all its parts.
+    fn of_parts(&mut self, parts: TermList, id: TermId) -> Operand {
+        let operands = self.terms(parts);
+        self.apply(id, &operands)
+    }
+
     fn plain_term(&mut self, id: TermId) -> Operand {
         let program = self.program;
         match program.term(id) {
@@ -71,15 +77,11 @@ impl Translator<'_, '_> {
                 self.term(*body)
             }
             Term::Quantified { quantifier, binders, condition } => self.quantified(*quantifier, *binders, *condition),
-            Term::Collection { kind, elements }
-                if let Some(items) = self.literal(*kind, program.term_list(*elements)) =>
-            {
-                items
-            }
-            Term::Tuple(list) | Term::Collection { elements: list, .. } => {
-                let operands = self.terms(*list);
-                self.apply(id, &operands)
-            }
+            Term::Tuple(list) => self.of_parts(*list, id),
+            Term::Collection { kind, elements } => match self.literal(*kind, program.term_list(*elements)) {
+                Some(items) => items,
+                None => self.of_parts(*elements, id),
+            },
             Term::Project { tuple, index } => {
                 let tuple = self.term(*tuple);
                 let tuple = self.pinned(tuple);

@@ -74,8 +74,8 @@ fn renumbered(
     };
     let mut there = Vec::new();
     for number in 0..own as u32 {
-        if let Some(value @ (Value::Enum(_, other) | Value::Element(_, other))) = through(&value(number)) {
-            there.push((number, other, Shape::of(&value)));
+        if let Some(ref value @ (Value::Enum(_, other) | Value::Element(_, other))) = through(&value(number)) {
+            there.push((number, other, Shape::of(value)));
         }
     }
     let Some((_, _, shape)) = there.first().copied() else {
