@@ -8,7 +8,7 @@ use std::fmt::Write;
 use std::sync::Arc;
 
 use machine::{Limits, Location, Show, Value};
-use program::{FunctionKind, Program};
+use program::{Builtin, FunctionId, FunctionKind, Program, Term, TermId};
 use simulate::{Decided, Header, Inputs, Options, Run};
 use verify::{Subject, Trace};
 
@@ -63,10 +63,7 @@ pub fn counterexample_scenario(program: &Program, trace: &Trace, subject: Subjec
 
 /// Puts the initial state that was chosen among several: a scenario picks in steps alone.
 fn begin(text: &mut String, program: &Program, values: &[(Location, Value)]) {
-    let is_own = |location: &Location| {
-        let kind = program.function(location.function).kind;
-        matches!(kind, FunctionKind::Controlled | FunctionKind::Shared | FunctionKind::Out)
-    };
+    let is_own = |location: &Location| is_state(program.function(location.function).kind);
     let (said, unsaid): (Vec<_>, Vec<_>) = values
         .iter()
         .filter(|(location, _)| is_own(location))
@@ -77,12 +74,79 @@ fn begin(text: &mut String, program: &Program, values: &[(Location, Value)]) {
     }
     let update =
         |(location, value): &(Location, Value)| format!("{} := {}", location.show(program), value.show(program));
-    let updates: Vec<String> = said.into_iter().map(update).collect();
-    match &updates[..] {
+    let mut updates: Vec<String> = said.into_iter().map(update).collect();
+    let chosen =
+        (0..).map(FunctionId).zip(chosen_at_the_start(program)).filter_map(|(id, chosen)| chosen.then_some(id));
+    let (single, many): (Vec<_>, Vec<_>) = chosen.partition(|id| program.function(*id).parameters.is_empty());
+    // Where the scenario itself chooses, there may be a value where none was found.
+    let has_value =
+        |id: &FunctionId| values.iter().any(|(location, value)| location.function == *id && !value.is_undef());
+    updates
+        .extend(single.iter().filter(|id| !has_value(id)).map(|id| format!("{} := undef", program.function(*id).name)));
+    let cleared: Vec<String> = many.iter().filter_map(|id| cleared(program, *id)).collect();
+    let all = match &updates[..] {
+        [] => None,
+        [only] => Some(only.clone()),
+        several => Some(block("par", several)),
+    };
+    let first: Vec<String> = cleared.into_iter().chain(all).collect();
+    match &first[..] {
         [] => {}
-        [only] => _ = writeln!(text, "exec {only};"),
-        several => _ = writeln!(text, "exec\n\tpar\n\t\t{}\n\tendpar;", several.join("\n\t\t")),
+        [only] if !only.contains('\n') => _ = writeln!(text, "exec {only};"),
+        [only] => _ = writeln!(text, "exec\n\t{};", only.replace('\n', "\n\t")),
+        several => _ = writeln!(text, "exec\n\t{};", block("seq", several).replace('\n', "\n\t")),
     }
+}
+
+/// Rules in a block, one on each line.
+fn block(word: &str, rules: &[String]) -> String {
+    let rules: Vec<String> = rules.iter().map(|rule| format!("\n\t{}", rule.replace('\n', "\n\t"))).collect();
+    format!("{word}{}\nend{word}", rules.concat())
+}
+
+/// A rule that leaves a function with parameters without values; none where its arguments cannot be gone through.
+fn cleared(program: &Program, id: FunctionId) -> Option<String> {
+    let function = program.function(id);
+    if !function.parameters.iter().all(|domain| program.is_listable(*domain)) {
+        return None;
+    }
+    let names: Vec<String> = (1..=function.parameters.len()).map(|number| format!("$a{number}")).collect();
+    let binders = names.iter().zip(&function.parameters);
+    let binders: Vec<String> =
+        binders.map(|(name, domain)| format!("{name} in {}", program.domain(*domain).name)).collect();
+    Some(format!("forall {} with true do {}({}) := undef", binders.join(", "), function.name, names.join(", ")))
+}
+
+/// By function of the state, whether its initial value may depend on a choice.
+fn chosen_at_the_start(program: &Program) -> Vec<bool> {
+    let mut chosen = vec![false; program.functions.len()];
+    let initial = program.initials.iter().map(|initial| (initial.function, initial.value.body));
+    let defined = (0..).map(FunctionId).zip(&program.functions);
+    let defined = defined.filter_map(|(id, function)| Some((id, function.definition.as_ref()?.body)));
+    let bodies: Vec<(FunctionId, TermId)> = initial.chain(defined).collect();
+    loop {
+        let before = chosen.clone();
+        for (function, body) in &bodies {
+            let mut open = vec![*body];
+            while let Some(term) = open.pop() {
+                chosen[function.0 as usize] |= match program.term(term) {
+                    Term::Builtin { builtin: Builtin::ChooseOne, .. } => true,
+                    Term::Read { function, .. } | Term::Define { function, .. } => chosen[function.0 as usize],
+                    _ => false,
+                };
+                program.each_child_of_term(term, &mut |child| open.push(child));
+            }
+        }
+        if chosen == before {
+            break;
+        }
+    }
+    chosen.iter_mut().zip(&program.functions).for_each(|(chosen, function)| *chosen &= is_state(function.kind));
+    chosen
+}
+
+fn is_state(kind: FunctionKind) -> bool {
+    matches!(kind, FunctionKind::Controlled | FunctionKind::Shared | FunctionKind::Out)
 }
 
 /// Ends a deadlock's scenario with a check that fails because the next step changes nothing.

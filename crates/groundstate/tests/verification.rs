@@ -110,18 +110,40 @@ fn counterexamples_fail_as_scenarios_where_they_end() {
 /// Of a machine with several initial states the scenario begins in the one that was found, whatever is chosen.
 #[test]
 fn a_counterexample_begins_in_its_initial_state() {
-    let model = "asm Start\nimport StandardLibrary\nsignature:\n\tcontrolled by: Integer\n\tcontrolled n: Integer\n\
-                 definitions:\n\tinvariant inv_even over n: n != 6\n\tmain rule r_Main = if n < 6 then n := n + by endif\n\
-                 default init s0:\n\tfunction by = chooseone({5, 4, 3})\n\tfunction n = 0\n";
-    let (program, report) = check(model, 1);
-    let invariant = report.verdicts.iter().find(|verdict| matches!(verdict.subject, Subject::Property(_)));
-    let Some(Outcome::Violated(trace)) = invariant.map(|verdict| &verdict.outcome) else { panic!("{report:#?}") };
-    let subject = Subject::Property(0);
-    let text = counterexample_scenario(&program, trace, subject, "example", &file(model));
-    let source = SourceFile::new("example.avalla", text.clone());
-    let tested = Suite::new().test(source, &mut one_model(model), Scenario::default(), &mut FirstCandidate);
-    let found = tested.verdict.unwrap_or_else(|| panic!("{:#?}\n{text}", tested.diagnostics));
-    assert!(!found.failures().is_empty() && found.steps == 2, "{text}");
+    let begins = |signature: &str, rest: &str, steps: u64| {
+        let model = format!(
+            "asm Start\nimport StandardLibrary\nsignature:\n\tcontrolled n: Integer\n{signature}definitions:\n{rest}"
+        );
+        let (program, report) = check(&model, 1);
+        let invariant = report.verdicts.iter().find(|verdict| matches!(verdict.subject, Subject::Property(_)));
+        let Some(Outcome::Violated(trace)) = invariant.map(|verdict| &verdict.outcome) else { panic!("{report:#?}") };
+        let subject = Subject::Property(0);
+        let text = counterexample_scenario(&program, trace, subject, "example", &file(&model));
+        let source = SourceFile::new("example.avalla", text.clone());
+        let tested = Suite::new().test(source, &mut one_model(&model), Scenario::default(), &mut FirstCandidate);
+        let found = tested.verdict.unwrap_or_else(|| panic!("{:#?}\n{text}", tested.diagnostics));
+        assert!(!found.failures().is_empty() && found.steps == steps, "{text}");
+    };
+    begins(
+        "\tcontrolled by: Integer\n",
+        "\tinvariant inv_even over n: n != 6\n\tmain rule r_Main = if n < 6 then n := n + by endif\n\
+         default init s0:\n\tfunction by = chooseone({5, 4, 3})\n\tfunction n = 0\n",
+        2,
+    );
+    // What was found may have no value where another choice gives one.
+    begins(
+        "\tcontrolled by: Integer\n",
+        "\tinvariant inv_by over n: n < 2 or isDef(by)\n\tmain rule r_Main = if n < 3 then n := n + 1 endif\n\
+         default init s0:\n\tfunction by = if chooseone({1, 2, 3}) < 3 then 1 else undef endif\n\tfunction n = 0\n",
+        2,
+    );
+    begins(
+        "\tenum domain Side = {LEFT | RIGHT}\n\tcontrolled by: Side -> Integer\n\tcontrolled on: Side\n",
+        "\tinvariant inv_by over n: n < 2 or isDef(by(LEFT)) or isUndef(by(RIGHT))\n\tmain rule r_Main = if n < 3 then n := n + 1 endif\n\
+         default init s0:\n\tfunction on = chooseone({LEFT, RIGHT})\n\
+         \tfunction by($s in Side) = if $s = on then 1 else undef endif\n\tfunction n = 0\n",
+        2,
+    );
 }
 
 #[test]
