@@ -373,7 +373,8 @@ impl Encoder {
         })
     }
 
-    /// A symbol as the value of a place, and whether it is defined.
+    /// A symbol as the value of a place, and whether it is defined. INVARIANT: where it is not, the value is one of the place's domain,
+    /// too: a solver takes it for granted that each state has such values, and would else not see the state.
     ///
     /// # Errors
     /// It is of another kind than the place's values.
@@ -383,7 +384,9 @@ impl Encoder {
             Symbol::Known(value) if Shape::of(value) == place.shape => {
                 Ok((constant(&mut self.terms, &mut self.codes, value), Terms::TRUE))
             }
-            Symbol::Open(Open { shape, value, defined }) if *shape == place.shape => Ok((*value, *defined)),
+            Symbol::Open(Open { shape, value, defined }) if *shape == place.shape => {
+                Ok((self.terms.choose(*defined, *value, place.value), *defined))
+            }
             _ => {
                 let span = self.program.function(place.location.function).span;
                 self.outside("a value of another kind than that of its function", span)

@@ -171,7 +171,11 @@ impl Relation {
         let mut conditions = Vec::new();
         let mut beyond = Vec::new();
         for (index, condition) in settings.conditions.iter().enumerate() {
+            let before = encoder.beyond.len();
             let (truth, live) = encoder.condition(condition)?;
+            // Where it cannot be told what it comes to, it is not violated either.
+            let strays: Vec<Node> = encoder.beyond[before..].iter().map(|one| one.0).collect();
+            let strays = encoder.terms.or(strays);
             conditions.push(truth);
             if live != Terms::TRUE && (plan.assumed.contains(&index) || plan.terminal == Some(index)) {
                 let what = "an assumption that has no value".to_string();
@@ -179,7 +183,8 @@ impl Relation {
                 beyond.push((encoder.terms.not(live), Outside { what, span }));
             }
             if plan.wanted.contains(&index) {
-                targets.push((Target::Condition(index), encoder.terms.not(truth)));
+                let violated = [encoder.terms.not(truth), encoder.terms.not(strays)];
+                targets.push((Target::Condition(index), encoder.terms.and(violated)));
             }
         }
         let admitted = encoder.terms.and(plan.assumed.iter().map(|index| conditions[*index]));

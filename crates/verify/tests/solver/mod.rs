@@ -152,6 +152,53 @@ fn an_invariant_that_cannot_be_evaluated_hides_nothing() {
     }
 }
 
+/// A location that has no value has one for the solver, which has to be in its domain: else it does not see the state. Here that value
+/// would be what the other choice writes.
+#[test]
+fn a_location_without_a_value_hides_no_state() {
+    for outside in ["if b then 3 else 0 endif", "size({$d in {1, 2, 3} | b : $d})"] {
+        let program = model(&format!(
+            "domain Few subsetof Integer controlled y: Boolean controlled u: Few controlled b: Boolean monitored k: Boolean
+            definitions: domain Few = {{0 : 2}} invariant inv_c over y: not y
+            main rule r_Main = par
+                choose $c in {{1, 2}} with k do let ($z = {outside}) in u := $z endlet ifnone y := true
+                choose $e in {{1, 2}} with b do u := undef
+            endpar
+            default init s0: function y = false function u = 0 function b = true"
+        ));
+        check(&program, Method::Bounded, &[("inv_c", "violated in 1 steps")]);
+        check(&program, Method::Induction, &[("inv_c", "violated in 1 steps"), ("InDomain", "violated in 1 steps")]);
+        for method in [Method::Reachability, Method::Portfolio] {
+            for (name, word) in said(&program, method) {
+                assert!(name != "inv_c" || !word.starts_with("holds"), "{method:?}: {word}");
+            }
+        }
+    }
+}
+
+/// What all solvers say of all checks.
+fn said(program: &Arc<Program>, method: Method) -> Vec<(String, String)> {
+    ask(program, method, 20).into_iter().flatten().flat_map(|report| words(program, &report)).collect()
+}
+
+/// What an initial value gives a function outside of its domain is not told to the solver, which therefore says nothing.
+#[test]
+fn an_invariant_that_looks_outside_of_a_domain_is_not_violated() {
+    let program = model(
+        "enum domain Side = {LEFT | RIGHT} controlled f: Side -> Side controlled g: Side controlled b: Boolean
+        definitions: invariant inv_f over f: f(g) != LEFT
+        main rule r_Main = b := not b
+        default init s0: function f($s in Side) = RIGHT function b = true",
+    );
+    check(&program, Method::Bounded, &[("inv_f", "beyond: an argument outside of its domain")]);
+    for method in [Method::Induction, Method::Reachability, Method::Portfolio] {
+        let said = said(&program, method).into_iter().filter(|(name, _)| name == "inv_f");
+        said.for_each(|(_, word)| {
+            assert!(word.starts_with("unknown") || word.starts_with("beyond"), "{method:?}: {word}")
+        });
+    }
+}
+
 #[test]
 fn inputs_without_a_bound() {
     let program = model(TANK);
