@@ -5,7 +5,7 @@
 //! asked for which is replaced is what the machine in its place answers; one that something still asks for is the same in both. INVARIANT: nothing is said to
 //! be proved here, and nothing is kept: who asks runs the proof.
 
-use chart::{Answered, Block, Chart, Obligation, Observed, Texts, obligations};
+use chart::{Answered, Block, Chart, Obligation, Observed, Stand, Texts, obligations, stands};
 use model::{FunctionKind, Loader};
 use program::{Function, Program, Rule, RuleId, Runs, Term, TermId};
 use syntax::SourceFile;
@@ -32,6 +32,8 @@ pub struct OwedProof {
     pub observed: Vec<String>,
     /// The machine in the place of the shape, if it is one block that takes steps.
     pub block: Option<Block>,
+    /// The control states of the chart's machines.
+    pub stands: Vec<Stand>,
 }
 
 /// What a chart owes. `model` is the model's file as it is.
@@ -78,7 +80,7 @@ fn proof(
         SourceFile::new(format!("<{} by {}>", obligation.shape, obligation.by.as_deref().unwrap_or("")), coupling);
     let observed = observed.into_iter().map(|function| function.name).collect();
     let block = obligation.block(&replaced);
-    Ok(OwedProof { models: [given, concrete], coupling, observed, block })
+    Ok(OwedProof { models: [given, concrete], coupling, observed, block, stands: stands(chart) })
 }
 
 /// A chart and the model that is built from it; `with` says what is new in it.

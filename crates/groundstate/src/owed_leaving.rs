@@ -1,8 +1,9 @@
-//! Whether the machine in the place of a shape that was to be refined can always be left, and which answers it gives.
+//! Whether a machine that waits can always go on, and which answers the machine in the place of a guard gives.
 //!
-//! In: the model with the block, what the file beside the chart assumes, options. Out: a [`Leaving`]. A proof of refinement that takes
-//! waiting to end says nothing of a machine whose waiting cannot end, whatever the environment does: that is looked for here.
-//! INVARIANT: what is told is so in all states that can be reached under the assumptions; what was not looked at is not told.
+//! In: the models of a proof, what the file beside the chart assumes, options. Out: a [`Leaving`]. A proof of refinement that takes
+//! waiting to end says nothing of a machine whose waiting cannot end, whatever the environment does: that is looked for here, in the
+//! block and in each control state that the chart's model can always leave.
+//! INVARIANT: what is told is so in all states that can be reached under the assumptions; what was not looked at is told to be so.
 
 use std::sync::Arc;
 
@@ -10,64 +11,140 @@ use chart::Block;
 use model::{Loader, PropertyKind};
 use program::Property;
 use syntax::SourceFile;
-use verify::{Options, Outcome, Progress, Subject};
+use verify::{Options, Outcome, Progress, Reason, Subject};
 
 use crate::tell::Verdicts;
-use crate::{Loaded, assume, with_libraries};
+use crate::{Loaded, OwedProof, assume, with_libraries};
 
-/// What is known of leaving a block.
+/// What is known of leaving a block and the states after it.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Leaving {
-    /// A run to a state of the block from which it is never left, in lines.
-    pub stuck: Option<String>,
+    /// Where the machine stays for ever, whatever the environment does.
+    pub stuck: Option<Stuck>,
     /// The answers that it never gives.
     pub never: Vec<bool>,
+    /// Something could not be decided, so it may be stuck all the same.
+    pub open: bool,
 }
 
-/// Looks at all states of a model. `beside` is the file beside the chart.
+/// A place that is never left, though the chart's model leaves it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Stuck {
+    /// What it is: none is the block, else a machine and its control state.
+    pub at: Option<(String, String)>,
+    /// A run to a state in which it stays there, in lines.
+    pub run: String,
+}
+
+/// Looks at all states of the models. `beside` is the file beside the chart. Only where `waits` is it asked whether machines can go on.
 pub fn leaving(
-    loaded: &Loaded,
-    block: &Block,
+    proof: &OwedProof,
     beside: Option<&SourceFile>,
-    options: Options,
+    waits: bool,
+    options: &Options,
     loader: &mut dyn Loader,
     watch: &mut dyn FnMut(&Progress) -> bool,
 ) -> Leaving {
     let mut found = Leaving::default();
-    let with = with_libraries(loaded, &["CTLLibrary"], loader);
-    let Ok(assumed) = assume(with.as_ref().unwrap_or(loaded), beside, &[]) else { return found };
-    let mut asked = assumed.model.overlay();
-    let given = asked.program.properties.len();
-    let Block { at, left, answer } = block;
-    let mut questions = vec![(PropertyKind::Ctl, format!("ag({at} implies ef({left}))"))];
-    for word in answer.iter().flat_map(|answer| [answer.clone(), format!("not {answer}")]) {
-        questions.push((PropertyKind::Invariant, format!("not (if {at} and {left} then {word} else false endif)")));
+    let mut asking = Asking { beside, options, loader, watch };
+    let [given, concrete] = &proof.models;
+    let mut questions = Vec::new();
+    if let Some(Block { at, left, answer }) = &proof.block {
+        questions.push((PropertyKind::Ctl, format!("ag({at} implies ef({left}))")));
+        for word in answer.iter().flat_map(|answer| [answer.clone(), format!("not {answer}")]) {
+            questions.push((PropertyKind::Invariant, format!("not (if {at} and {left} then {word} else false endif)")));
+        }
     }
-    if !questions.iter().all(|(kind, text)| asked.property(*kind, "<block>", text).is_ok()) {
+    let of_block = questions.len();
+    let stands = if waits { &proof.stands[..] } else { &[] };
+    questions.extend(stands.iter().map(|stand| (PropertyKind::Ctl, stand.goes_on())));
+    if questions.is_empty() {
         return found;
     }
-    let claimed =
-        |property: &Property| matches!(property.kind, PropertyKind::Invariant | PropertyKind::Ctl | PropertyKind::Ltl);
-    let program = Arc::make_mut(&mut asked.program);
-    let mut index = 0;
-    program.properties.retain(|property| {
-        index += 1;
-        index > given || !claimed(property)
-    });
-    let first = program.properties.len() - questions.len();
-    let options = Options { bounds: assumed.bounds, undefined: assumed.undefined, ..options };
-    let Ok(report) = verify::verify(&asked.program, &options, watch) else { return found };
-    let words = Verdicts::new(&asked.program, &asked.sources, false);
-    for verdict in &report.verdicts {
-        let Subject::Property(place) = verdict.subject else { continue };
-        match (place.checked_sub(first), &verdict.outcome) {
-            (Some(0), Outcome::Violated(trace)) => {
-                let told = words.violation(verdict.subject, trace);
-                found.stuck = Some(told.lines().skip(1).collect::<Vec<_>>().join("\n"));
+    let answers = asking.ask(concrete, &questions);
+    let mut doubtful = Vec::new();
+    for (index, answer) in answers.into_iter().enumerate() {
+        match (answer, index.checked_sub(of_block)) {
+            (Answer::No(run), None) if index == 0 => found.stuck = Some(Stuck { at: None, run }),
+            (Answer::Yes, None) if index > 0 => found.never.push(index == 1),
+            (Answer::No(run), Some(stand)) => doubtful.push((&stands[stand], run)),
+            (Answer::Unknown, _) => found.open |= waits,
+            (Answer::Yes | Answer::No(_), _) => {}
+        }
+    }
+    if found.stuck.is_some() || doubtful.is_empty() {
+        return found;
+    }
+    // Where the chart's own model comes to rest, so may the other.
+    let questions: Vec<_> = doubtful.iter().map(|(stand, _)| (PropertyKind::Ctl, stand.goes_on())).collect();
+    for (answer, (stand, run)) in asking.ask(given, &questions).into_iter().zip(doubtful) {
+        match answer {
+            Answer::Yes if found.stuck.is_none() => {
+                found.stuck = Some(Stuck { at: Some((stand.machine.clone(), stand.value.clone())), run });
             }
-            (Some(answer @ 1..), Outcome::Holds) => found.never.push(answer == 1),
-            _ => {}
+            Answer::Yes | Answer::No(_) => {}
+            Answer::Unknown => found.open = true,
         }
     }
     found
+}
+
+/// What a question came to.
+enum Answer {
+    Yes,
+    /// With a run that shows it, in lines.
+    No(String),
+    Unknown,
+}
+
+/// Asks the search.
+struct Asking<'a> {
+    beside: Option<&'a SourceFile>,
+    options: &'a Options,
+    loader: &'a mut dyn Loader,
+    watch: &'a mut dyn FnMut(&Progress) -> bool,
+}
+
+impl Asking<'_> {
+    /// An answer to each question about a model.
+    fn ask(&mut self, loaded: &Loaded, questions: &[(PropertyKind, String)]) -> Vec<Answer> {
+        let mut answers: Vec<Answer> = questions.iter().map(|_| Answer::Unknown).collect();
+        let with = with_libraries(loaded, &["CTLLibrary"], self.loader);
+        let Ok(assumed) = assume(with.as_ref().unwrap_or(loaded), self.beside, &[]) else { return answers };
+        let mut asked = assumed.model.overlay();
+        let given = asked.program.properties.len();
+        if !questions.iter().all(|(kind, text)| asked.property(*kind, "<block>", text).is_ok()) {
+            return answers;
+        }
+        let claimed = |property: &Property| {
+            matches!(property.kind, PropertyKind::Invariant | PropertyKind::Ctl | PropertyKind::Ltl)
+        };
+        let program = Arc::make_mut(&mut asked.program);
+        let mut index = 0;
+        program.properties.retain(|property| {
+            index += 1;
+            index > given || !claimed(property)
+        });
+        let first = program.properties.len() - questions.len();
+        let options = Options { bounds: assumed.bounds, undefined: assumed.undefined, ..self.options.clone() };
+        let Ok(report) = verify::verify(&asked.program, &options, self.watch) else { return answers };
+        let words = Verdicts::new(&asked.program, &asked.sources, false);
+        for verdict in &report.verdicts {
+            let Subject::Property(place) = verdict.subject else { continue };
+            let Some(answer) = place.checked_sub(first).and_then(|place| answers.get_mut(place)) else { continue };
+            match &verdict.outcome {
+                Outcome::Holds => *answer = Answer::Yes,
+                Outcome::Violated(trace) => {
+                    let told = words.violation(verdict.subject, trace);
+                    *answer = Answer::No(told.lines().skip(1).collect::<Vec<_>>().join("\n"));
+                }
+                // That inputs have only these values is assumed of the whole proof, which says so.
+                Outcome::Unknown(reasons) if reasons.iter().all(|reason| matches!(reason, Reason::Bounded(_))) => {
+                    *answer = Answer::Yes;
+                }
+                Outcome::Unknown(_) => {}
+            }
+        }
+        answers
+    }
 }

@@ -115,6 +115,47 @@ fn a_machine_that_does_more_or_at_the_wrong_time_is_refuted() {
     check(folder, &PROVE, 1, &["refuted"]);
 }
 
+/// That waiting ends is taken for granted of what the environment can end, not of a machine that the pattern has stopped.
+#[test]
+fn what_stops_a_machine_for_ever_is_refuted() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let folder = folder.path();
+    let chart = "chart Crane
+
+machine door \"Door\"
+	control phase
+	initial state shut \"Shut\"
+	state open \"Open\"
+	action unlock \"UNLOCK\" to refine by unlocking
+	guard healthy \"Healthy\" {not broken}
+	shut -> unlock -> open
+	open -> healthy yes -> shut
+endmachine
+
+pattern unlocking \"Unlock in two steps\"
+	control step
+	state half \"Half\"
+	action damage \"DAMAGE\" {r_damage[]}
+	enter -> damage -> half -> exit
+endpattern
+";
+    let prepare = |damage: &str| {
+        let model = format!(
+            "asm Crane\n\nimport StandardLibrary\n\nsignature:\n\tcontrolled broken: Boolean\n\n\
+             definitions:\n\trule r_damage = {damage}\n\n\
+             default init s0:\n\tfunction broken = false\n\tfunction phase = SHUT\n"
+        );
+        fs::write(folder.join("Crane.chart"), chart).expect("it is written");
+        fs::write(folder.join("Crane.asm"), model).expect("it is written");
+        let (code, text) = said(folder, &["chart", "build", "Crane.chart"]);
+        assert_eq!(code, Some(0), "{text}");
+    };
+    prepare("skip");
+    check(folder, &PROVE, 0, &["proved ("]);
+    prepare("broken := true");
+    check(folder, &PROVE, 1, &["refuted, there is a state from which door never leaves OPEN", "broken: false -> true"]);
+}
+
 #[test]
 fn what_the_file_beside_the_chart_assumes_is_assumed_and_told() {
     let folder = tempfile::tempdir().expect("a temporary folder");

@@ -7,7 +7,7 @@ use std::path::Path;
 use groundstate::refine::{Coupling, Options, Verdict, refine};
 use groundstate::tell::{Refinements, WAITS};
 use groundstate::verify::Progress;
-use groundstate::{Assumptions, Leaving, Loaded, Owed, OwedProof, assume, leaving};
+use groundstate::{Assumptions, Leaving, Loaded, Owed, OwedProof, Stuck, assume, leaving};
 use syntax::SourceFile;
 
 use crate::failure::Failure;
@@ -127,17 +127,15 @@ fn assumed(path: &Path, beside: Option<&SourceFile>, proof: &OwedProof) -> Resul
     Ok([of(&proof.models[0])?, of(&proof.models[1])?])
 }
 
-/// Whether the machine in the shape's place can always be left, and what it answers.
+/// Whether the machine in the shape's place can always be left, and all machines go on, and what it answers.
 fn left(shell: &Shell, proof: &OwedProof, beside: Option<&SourceFile>, asked: Asked) -> Leaving {
-    let Some(block) = &proof.block else { return Leaving::default() };
     let options = groundstate::verify::Options {
         limits: shell.global.limits.uninterrupted(),
         interrupt: interrupt::request().clone(),
         ..groundstate::verify::Options::default()
     };
     let mut watch = Watch::new(asked.time, true);
-    let found =
-        leaving(&proof.models[1], block, beside, options, &mut shell.disk(), &mut |progress| watch.at(progress));
+    let found = leaving(proof, beside, asked.waiting, &options, &mut shell.disk(), &mut |progress| watch.at(progress));
     watch.done();
     found
 }
@@ -196,12 +194,17 @@ fn proved(shell: &Shell, file: &Path, proof: &OwedProof, asked: Asked) -> Told {
                 }
             }
             let (pairs, observed) = (report.progress.pairs, proof.observed.clone());
-            let Leaving { stuck, never } = left(shell, proof, file.as_ref(), asked);
+            let Leaving { stuck, never, open } = left(shell, proof, file.as_ref(), asked);
             match stuck {
                 // All that was taken for granted is that waiting ends, and here it cannot.
-                Some(report) => {
-                    Told::Refuted { why: "there is a state from which it is never left".to_string(), report }
+                Some(Stuck { at: None, run }) => {
+                    Told::Refuted { why: "there is a state from which it is never left".to_string(), report: run }
                 }
+                Some(Stuck { at: Some((machine, state)), run }) => {
+                    let why = format!("there is a state from which {machine} never leaves {state}");
+                    Told::Refuted { why, report: run }
+                }
+                None if open => Told::Unknown("whether its machines can always go on was not decided".to_string()),
                 None => Told::Proved { pairs, observed, waiting: asked.waiting, assumed, never },
             }
         }
