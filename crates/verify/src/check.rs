@@ -45,7 +45,8 @@ pub(crate) fn verify_request(
     let task = Task { program, plan: &question.plan, solvers, keeper, heed };
     let mut ended = engine_of(options.engine, &question.plan, task.keeper.is_some()).run(task)?;
     let reasons = reasons(&ended, &question, options);
-    let assumed = reasons.iter().filter(|reason| matches!(reason, Reason::Bounded(_) | Reason::Vacuous));
+    let assumed =
+        reasons.iter().filter(|reason| matches!(reason, Reason::Bounded(_) | Reason::Vacuous | Reason::Stepless));
     let assumed: Vec<Reason> = assumed.copied().collect();
     // All states may have been explored by then.
     let is_enough = options.first && !ended.found.is_empty();
@@ -179,6 +180,10 @@ fn reasons(search: &Ended, question: &Question, options: &Options) -> Vec<Reason
     let has_searched = !matches!(search.engine, EngineKind::Solver(_)) && search.stop.is_none();
     if search.vacuous || has_searched && search.progress.states == 0 && search.unbounded.is_empty() {
         reasons.insert(Reason::Vacuous);
+    }
+    let Progress { states, blocked, .. } = search.progress;
+    if has_searched && states > 0 && blocked == states {
+        reasons.insert(Reason::Stepless);
     }
     for condition in &question.plan.assumed {
         if search.unknown.contains(condition) {

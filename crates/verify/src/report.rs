@@ -34,6 +34,8 @@ pub enum Reason {
     Assumption(usize),
     /// No initial state satisfies the assumptions, so nothing was checked.
     Vacuous,
+    /// No step satisfies the assumptions, so only the initial states were looked at.
+    Stepless,
     /// States or steps were left out in which an invariant does not hold.
     Unlawful,
     /// In some state it depends on something that cannot be enumerated.

@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 
 use syntax::SourceFile;
 use testkit::{Random, sample};
-use verify::{Options, Outcome, Storage, verify};
+use verify::{Options, Outcome, Reason, Storage, verify};
 
 use crate::models::lowered;
 
@@ -109,4 +109,29 @@ fn no_deadlock_says_nothing_of_them() {
         verify(&lowered(SourceFile::new("Level.asm", text)), &Options::default(), &mut |_| true).expect("it begins");
     assert!(report.verdicts.iter().all(|verdict| verdict.outcome == Outcome::Holds), "{:?}", report.verdicts);
     assert_eq!((report.progress.states, report.progress.blocked), (2, 1));
+}
+
+/// Where no step is left at all, nothing but the initial states was looked at, and that nothing is wrong in them says little.
+#[test]
+fn assumptions_that_leave_no_step() {
+    let model = |assumed: &str| {
+        format!(
+            "asm Level\nimport StandardLibrary\nimport CTLLibrary\nsignature:\n\tdomain Level subsetof Integer\n\tcontrolled level: Level\n\
+             \tmonitored go: Boolean\ndefinitions:\n\tdomain Level = {{0 : 3}}\n\tINVAR {assumed}\n\tinvariant inv_low over level: level < 3\n\
+             \tCTLSPEC ctlSpec_low: ag(level < 2)\n\tmain rule r_Main = level := 1 - level\ndefault init s0:\n\tfunction level = 0\n"
+        )
+    };
+    let of = |assumed: &str, workers: usize| {
+        let options = Options { workers, ..Options::default() };
+        let report = verify(&lowered(SourceFile::new("Level.asm", model(assumed))), &options, &mut |_| true);
+        report.expect("it begins")
+    };
+    for workers in [1, 2] {
+        let report = of("go and not go", workers);
+        let stepless = Outcome::Unknown(vec![Reason::Stepless]);
+        assert!(report.verdicts.iter().all(|verdict| verdict.outcome == stepless), "{:?}", report.verdicts);
+        assert!(report.unreachable.is_empty());
+        let report = of("go", workers);
+        assert!(report.verdicts.iter().all(|verdict| verdict.outcome == Outcome::Holds), "{:?}", report.verdicts);
+    }
 }

@@ -561,6 +561,9 @@ fn counting(report: &Report, asked: &Asked) -> Result<Counting, String> {
             (Outcome::Unknown(reasons), _) if reasons.contains(&Reason::Vacuous) => {
                 return Err("has no initial state that satisfies its assumptions".to_string());
             }
+            (Outcome::Unknown(reasons), _) if reasons.contains(&Reason::Stepless) => {
+                return Err("has no step that satisfies its assumptions".to_string());
+            }
             (Outcome::Unknown(reasons), subject) => {
                 // What was not found within the same bounds, or in the same number of steps, counts if it is found then.
                 let bounded = |reason: &Reason| {

@@ -190,6 +190,7 @@ impl Verdicts<'_> {
                 format!("the assumption {} has no value in some state", self.program.properties[*property].name)
             }
             Reason::Vacuous => "no initial state satisfies the assumptions".to_string(),
+            Reason::Stepless => "no step satisfies the assumptions".to_string(),
             Reason::Unlawful => "no scenario goes on where an invariant may not hold".to_string(),
             Reason::Undecided => "it has no value in some state".to_string(),
             Reason::Temporal => "this engine does not decide temporal formulas".to_string(),
