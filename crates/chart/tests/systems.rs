@@ -417,7 +417,11 @@ fn readers_that_do_not_fit() {
     let text_of_buffers = text.replace("queue 4", "swinging buffer 2").replace("period 5 ms", "period 10 ms");
     let loaded = chart::load(SourceFile::new("Cell.chart", text_of_buffers), &mut Patterns);
     let told: Vec<&str> = loaded.diagnostics.iter().map(|fault| fault.message.as_str()).collect();
-    assert_eq!(told, ["the master of the buffer `frame` must be named"]);
+    assert_eq!(told, ["the master of the buffer `frame` to `servo` must be named"]);
+    let places = "the channel `frame` does not fit: a queue has one place at least";
+    for size in ["0", "99999999999999999999999999"] {
+        check("queue 4", &format!("queue {size}"), &[places]);
+    }
     check(
         "endcomponent component view asynchronous awaits frame read frame",
         "write frame_view endcomponent component view asynchronous awaits frame read frame read frame_view",

@@ -454,9 +454,10 @@ pub(crate) fn awaited_unclear(span: Span) -> Diagnostic {
     .with_help("write `awaits all …` for something new on each of them, `awaits any …` for something new on one")
 }
 
-/// A buffer whose master cannot be determined.
-pub(crate) fn channel_master(span: Span, name: &str) -> Diagnostic {
-    Diagnostic::error("channel-master", span, format!("the master of the buffer `{name}` must be named"))
+/// A buffer whose master cannot be determined; of a channel with several readers that to one of them.
+pub(crate) fn channel_master(span: Span, name: &str, reader: Option<&str>) -> Diagnostic {
+    let to = reader.map_or(String::new(), |reader| format!(" to `{reader}`"));
+    Diagnostic::error("channel-master", span, format!("the master of the buffer `{name}`{to} must be named"))
         .here("it is the slower of two synchronous components, or the asynchronous one of a mixed pair")
         .with_help("write `master NAME` after the number of arrays; NAME is one of its two ends")
 }

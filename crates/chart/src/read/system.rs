@@ -391,10 +391,15 @@ impl Reader {
         let message = self.message(node.message());
         let ends: Vec<usize> = readers.iter().map(|(to, _)| *to).chain([from]).collect();
         let said = kind.master().and_then(|master| self.component_named(Some(master), system));
-        if kind.is_buffer() && said.is_some_and(|said| !ends.contains(&said)) {
-            self.faults.push(fault::channel_master(span, name.text()));
+        if let Some(said) = said.filter(|said| kind.is_buffer() && !ends.contains(said)) {
+            let reason = format!("`{}`, its master, neither writes nor reads it", system.components[said].name);
+            self.faults.push(fault::channel_ends(span, name.text(), &reason));
         }
-        let size = kind.size().and_then(|size| size.text().parse().ok()).unwrap_or(2);
+        // A number that does not fit is no number of places either.
+        let size = kind.size().map_or(2, |size| size.text().parse().unwrap_or(0));
+        if kind.is_queue() && size == 0 {
+            self.faults.push(fault::channel_ends(span, name.text(), "a queue has one place at least"));
+        }
         if kind.is_buffer() && !ast::ChannelKind::ARRAYS.contains(&size) {
             self.faults.push(fault::channel_ends(span, name.text(), "a swinging buffer has two to eight arrays"));
         }
@@ -407,7 +412,8 @@ impl Reader {
                 let said = said.filter(|said| !several || *said == from || *said == to);
                 let master = said.or_else(|| master(from, to, system));
                 if master.is_none() {
-                    self.faults.push(fault::channel_master(span, name.text()));
+                    let reader = several.then(|| system.components[to].name.as_str());
+                    self.faults.push(fault::channel_master(span, name.text(), reader));
                 }
                 ChannelKind::Buffer { arrays: size, master: master.unwrap_or(to) }
             } else {

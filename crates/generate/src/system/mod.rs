@@ -18,7 +18,7 @@ mod refuse;
 use chart::system::System;
 use syntax::Span;
 
-use crate::names::snake;
+use crate::names::{namespace, snake};
 
 pub use plan::{Form, MachineClass};
 pub use refuse::ungenerated;
@@ -37,7 +37,7 @@ pub struct Generated {
 /// The program of a system for which [`ungenerated`] is empty. Comments call the chart `file`.
 pub fn generate(system: &System, file: &str, form: &Form) -> Generated {
     let name = snake(&system.name);
-    let space = form.namespace.clone().unwrap_or_else(|| name.clone());
+    let space = form.namespace.clone().unwrap_or_else(|| space(&system.name, form));
     let header = header::header(system, file, &space, form);
     let lines = map::lines(system, &header);
     let mut once = vec![
@@ -59,4 +59,37 @@ pub fn generate(system: &System, file: &str, form: &Form) -> Generated {
     let computing = machines::header(system, file, &name, &space, form);
     decided.extend(computing.map(|text| (format!("generated/{name}_machines.hpp"), text)));
     Generated { decided, once, lines }
+}
+
+/// The namespace of a system of this name: none that the C library or the class of a component's machine has.
+fn space(name: &str, form: &Form) -> String {
+    let space = namespace(name);
+    let is_taken = form.classes.iter().any(|class| class.name == space);
+    if is_taken { format!("{space}_system") } else { space }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_system_has_a_namespace_of_its_own() {
+        let class = |name: &str| MachineClass {
+            file: "Rover.asm".to_string(),
+            machine: "Rover".to_string(),
+            name: name.to_string(),
+            header: String::new(),
+            renamed: Vec::new(),
+            domains: Vec::new(),
+        };
+        let form =
+            |classes: &[&str]| Form { classes: classes.iter().map(|name| class(name)).collect(), ..Form::default() };
+        assert_eq!(space("rover", &form(&["planner"])), "rover");
+        assert_eq!(space("rover", &form(&["planner", "rover"])), "rover_system");
+        for (name, own) in
+            [("time", "time_1"), ("System", "system_1"), ("main", "main_1"), ("visionSystem", "vision_system")]
+        {
+            assert_eq!(space(name, &form(&[])), own);
+        }
+    }
 }

@@ -13,6 +13,15 @@ use crate::names::snake;
 pub fn ungenerated(system: &System) -> Vec<Diagnostic> {
     let mut faults = late(system);
     for component in &system.components {
+        // Not all file systems tell capitals apart.
+        if component.name.eq_ignore_ascii_case("data") {
+            faults.push(not_generated(
+                component.span,
+                format!("a component `{}` cannot be generated", component.name),
+                "its file would be data.hpp, which has the types of the data",
+                "rename it",
+            ));
+        }
         let mut hooks: Vec<String> = Vec::new();
         for phase in &component.phases {
             match phase.action {
