@@ -7,7 +7,7 @@
 use std::fmt::Write;
 use std::sync::Arc;
 
-use machine::{Limits, Location, Show, Value};
+use machine::{FaultClass, Limits, Location, Show, Value};
 use program::{Builtin, FunctionId, FunctionKind, Program, Term, TermId};
 use simulate::{Decided, Header, Inputs, Options, Run};
 use verify::{Subject, Trace};
@@ -40,9 +40,19 @@ pub fn counterexample_scenario(program: &Program, trace: &Trace, subject: Subjec
         for choice in &step.choices {
             pick(&mut text, program, choice);
         }
-        text.push_str("step\n");
-        if index + 1 == last && step.fault.is_some() {
-            return text;
+        // The fault that was looked for fails the scenario. Where a run of a formula meets one, it stays in its state and goes on.
+        let is_found =
+            index + 1 == last && matches!(subject, Subject::Consistent | Subject::InDomain | Subject::Defined);
+        match &step.fault {
+            Some(_) if is_found => {
+                text.push_str("step\n");
+                return text;
+            }
+            Some(fault) if FaultClass::of(fault) == FaultClass::Inconsistent => {
+                text.push_str("expect inconsistent update;\n")
+            }
+            Some(_) => text.push_str("expect error;\n"),
+            None => text.push_str("step\n"),
         }
     }
     if let Some(turn) = trace.turn {

@@ -146,6 +146,29 @@ fn a_counterexample_begins_in_its_initial_state() {
     );
 }
 
+/// A run of a formula may meet a step that cannot be made: it stays in its state, and goes on with other inputs. The run is made again, and
+/// its scenario expects the fault.
+#[test]
+fn a_run_of_a_formula_goes_on_after_a_step_that_cannot_be_made() {
+    let model = "asm Fork\nimport StandardLibrary\nimport LTLLibrary\nsignature:\n\tenum domain Place = {HERE | THERE | AWAY}\n\
+                 \tcontrolled at: Place\n\tcontrolled done: Boolean\n\tmonitored go: Boolean\ndefinitions:\n\
+                 \tLTLSPEC ltlSpec_done: o(f(done))\n\tmain rule r_Main =\n\
+                 \t\tif at = HERE then if go then at := THERE else par at := THERE at := AWAY endpar endif\n\
+                 \t\telse if go then at := HERE else at := AWAY endif endif\n\
+                 default init s0:\n\tfunction at = HERE\n\tfunction done = false\n";
+    let (program, report) = check(model, 1);
+    let formula = report.verdicts.iter().find(|verdict| matches!(verdict.subject, Subject::Property(_)));
+    let Some(Outcome::Violated(trace)) = formula.map(|verdict| &verdict.outcome) else { panic!("{report:#?}") };
+    let faults = trace.steps.iter().filter(|step| step.fault.is_some()).count();
+    assert!(faults > 0 && trace.steps.last().is_some_and(|step| step.fault.is_none()), "it goes on: {trace:#?}");
+    let text = counterexample_scenario(&program, trace, Subject::Property(0), "example", &file(model));
+    assert_eq!(text.matches("expect inconsistent update;").count(), faults, "{text}");
+    let source = SourceFile::new("example.avalla", text.clone());
+    let tested = Suite::new().test(source, &mut one_model(model), Scenario::default(), &mut FirstCandidate);
+    let found = tested.verdict.unwrap_or_else(|| panic!("{:#?}\n{text}", tested.diagnostics));
+    assert!(found.failures().is_empty(), "{:#?}\n{text}", found.failures());
+}
+
 #[test]
 fn the_pages_of_faults_show_them() {
     let unreachable = Page::fault("unreachable-rule");

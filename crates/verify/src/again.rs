@@ -133,8 +133,10 @@ fn step(machine: &mut Machine, settings: &Settings, told: &Told, ends: Option<Ta
                 && changes.iter().zip(&told.changes).all(|(a, b)| (&a.location, &a.after) == (&b.location, &b.after));
             same && !matches!(ends, Some(Target::Fault(_)))
         }
-        // If its step cannot be made, the run stays where it is.
+        // If its step cannot be made, the run stays where it is, and goes on with other inputs.
         (Some(fault), Some(other)) => {
+            machine.discard();
+            machine.forget_inputs();
             FaultClass::of(&fault) == FaultClass::of(other) && (ends.is_none() || is_fault(&fault, ends))
         }
         _ => false,

@@ -18,7 +18,7 @@ pub fn run_name(recording: &Recording, others: &[ProgramRun]) -> String {
 /// A verdict, in the words of the page.
 pub fn held_in_words(conformed: &Conformed) -> Held {
     let Conformed { verdict, way, recording, accesses, .. } = conformed;
-    let (way, many) = (way.words(), |n: usize| report::count(n as u64));
+    let (way, made, many) = (way.words(), way.steps(), |n: usize| report::count(n as u64));
     match verdict {
         Verdict::Conforms { events, steps, after } => {
             let after = match after {
@@ -27,7 +27,7 @@ pub fn held_in_words(conformed: &Conformed) -> Held {
             };
             let steps = report::count(*steps);
             let (but, events) = (but(accesses), many(*events));
-            let words = format!("conforms to the model {way}{but}: {events} events, {steps} steps of the model{after}");
+            let words = format!("conforms to the model {way}{but}: {events} events, {steps} {made}{after}");
             Held { conforms: Some(true), words, beside: beside(conformed) }
         }
         Verdict::Unknown { events, reason } => Held {

@@ -153,6 +153,10 @@ impl Verdicts<'_> {
     fn left(&self, left: &Left) -> String {
         match left {
             Left::Depth(depth) => format!("no run of at most {} violates it", plural(*depth, "step")),
+            Left::Exact(depth) => {
+                let steps = plural(*depth, "step");
+                format!("no run of at most {steps} that computes exactly violates it; one that rounds reals may")
+            }
             Left::Late(0) => "the solver does not know".to_string(),
             Left::Late(steps) => format!("the solver does not know about runs of {}", plural(*steps, "step")),
             Left::Stopped => self.reason(&Reason::Stopped(Stop::Asked)),

@@ -34,6 +34,8 @@ pub enum Proof {
 pub enum Left {
     /// The limit of steps was reached.
     Depth(usize),
+    /// The same, of runs that compute with real numbers: those that round, as the machine does, were not looked for.
+    Exact(usize),
     /// The solver did not answer in time, or does not know, about runs of this many steps.
     Late(usize),
     /// The caller asked to stop.

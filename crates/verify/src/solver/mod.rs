@@ -197,6 +197,7 @@ pub(crate) fn solve(
             _ => match (&bounded.beyond, &late) {
                 (Some(beyond), _) => Left::Beyond(beyond.clone()),
                 (None, Some(left)) => left.clone(),
+                (None, None) if exact.inexact => Left::Exact(bounded.times.saturating_sub(1)),
                 (None, None) => Left::Depth(bounded.times.saturating_sub(1)),
             },
         };
