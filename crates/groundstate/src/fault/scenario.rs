@@ -55,7 +55,7 @@ pub fn diagnose_failure(failure: &Failure, program: &Program) -> Vec<Diagnostic>
         FailureKind::Bound { bound } => {
             let message = format!("the condition did not hold within {}", steps(*bound));
             one(Diagnostic::error("bound-reached", failure.span, message)
-                .with_help("write `step until … within N;` to allow more"))
+                .with_help(format!("write `step until … within N;` with an N above {bound} to allow more")))
         }
         FailureKind::Expected { expected, invariant, instead } => {
             let what = expected_words(*expected, invariant.as_deref());

@@ -106,7 +106,7 @@ fn refused(shell: &mut Shell, path: &Path, refusal: Refusal) -> Result<Exit, Fai
 
 fn say(shell: &mut Shell, conformed: &Conformed) -> Result<Exit, Failure> {
     let Conformed { sources, recording, verdict, way, decisions, accesses, .. } = conformed;
-    let way = way.words();
+    let (way, made) = (way.words(), way.steps());
     let words = match verdict {
         Verdict::Conforms { events, steps, after } => {
             let after = match after {
@@ -120,7 +120,7 @@ fn say(shell: &mut Shell, conformed: &Conformed) -> Result<Exit, Failure> {
             let but = tell::but(accesses);
             let beside = tell::beside(conformed).into_iter().chain(tell::outside(recording));
             let beside: String = beside.map(|words| format!("\n{words}")).collect();
-            format!("conforms {way}{but}: {events} events, {steps} steps of the model{after}{decisions}{beside}")
+            format!("conforms {way}{but}: {events} events, {steps} {made}{after}{decisions}{beside}")
         }
         Verdict::Unknown { events, reason } => {
             format!("not known, {way}: {reason}; {events} events agree before")

@@ -91,7 +91,10 @@ pub fn about(shell: &mut Shell, system: &VerifiedSystem) -> Result<(), Failure> 
     let by_rule =
         !system.data.is_empty() && phases.into_iter().any(|phase| matches!(phase.action, Action::Elaborate(Some(_))));
     let rules = if by_rule { "; what elaborations compute by rules is left out" } else { "" };
-    writeln!(shell.out(), "of {subject}{rules}")?;
+    // How tasks share processors is for `chart times`.
+    let processors = system.chart.system.as_ref().and_then(|system| system.processors);
+    let alone = if processors.is_some() { "; each task on a processor of its own" } else { "" };
+    writeln!(shell.out(), "of {subject}{rules}{alone}")?;
     let mut files: Vec<&str> = without.iter().map(|machine| machine.source.name.as_str()).collect();
     files.sort_unstable();
     files.dedup();
