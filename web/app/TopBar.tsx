@@ -8,7 +8,7 @@ import { Menu } from '../editor/Menu'
 import { runsInFront, startRun } from '../editor/RunPanel'
 import { useStore } from '../editor/store'
 import type { Doc } from '../editor/document'
-import type { Layout, Studio } from '../editor/studio'
+import { type Layout, type Studio, layoutShown } from '../editor/studio'
 import { words } from '../words'
 import { jobIcons, jobsFor } from './commands'
 import { following, setTheme, theme } from './theme'
@@ -17,7 +17,8 @@ const LAYOUTS: Layout[] = ['both', 'picture', 'text']
 
 export function TopBar({ studio, sidebar, showSidebar }: { studio: Studio; sidebar: boolean; showSidebar: () => void }): ReactNode {
   const active = useStore(studio.store, (state) => state.active)
-  const layout = useStore(studio.store, (state) => state.layout)
+  const layout = useStore(studio.store, layoutShown)
+  const narrow = useStore(studio.store, (state) => state.narrow)
   const online = useStore(studio.store, (state) => state.online)
   const name = useStore(studio.store, (state) => state.hello?.name ?? '')
   useStore(studio.store, (state) => state.opened)
@@ -53,7 +54,7 @@ export function TopBar({ studio, sidebar, showSidebar }: { studio: Studio; sideb
       </button>
       {doc && doc.file.kind === 'chart' && (
         <div className="segments" role="radiogroup" aria-label={words.shell.layouts}>
-          {LAYOUTS.map((one) => (
+          {LAYOUTS.filter((one) => !narrow || one !== 'both').map((one) => (
             <button key={one} role="radio" aria-checked={layout === one} title={words.shell.layout[one]} aria-label={words.shell.layout[one]} onClick={() => studio.store.set({ layout: one })}>
               <Icon name={one} />
             </button>

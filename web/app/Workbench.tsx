@@ -2,7 +2,7 @@
 //
 // Owns: what is where, sizes, the address of what is in front. In: the server and its greeting.
 
-import { type ReactNode, Suspense, lazy, useCallback, useEffect, useMemo, useState } from 'react'
+import { type KeyboardEvent as ReactKeyboardEvent, type ReactNode, Suspense, lazy, useCallback, useEffect, useMemo, useState } from 'react'
 
 import '@xyflow/react/dist/base.css'
 import './shell.css'
@@ -18,6 +18,7 @@ import './stategraph.css'
 import './system.css'
 import './code.css'
 import './conflict.css'
+import './narrow.css'
 import type { Hello } from '../diagram/protocol'
 import { Canvas } from '../editor/Canvas'
 import type { Chart } from '../editor/chart'
@@ -28,11 +29,11 @@ import { Dialogs } from '../editor/Dialogs'
 import type { Doc } from '../editor/document'
 import { Icon } from '../editor/icons'
 import { Inspector } from '../editor/Inspector'
-import { Problems, counted } from '../editor/Problems'
+import { Problems, areWarnings, counted } from '../editor/Problems'
 import { RunPanel } from '../editor/RunPanel'
 import type { Server } from '../editor/server'
 import { useStore } from '../editor/store'
-import { type Panel, Studio } from '../editor/studio'
+import { type Panel, Studio, layoutShown } from '../editor/studio'
 import { TextPane } from '../editor/TextPane'
 import { TimelinePanel } from '../editor/TimelinePanel'
 import { TimesPanel, useSystem } from '../editor/TimesPanel'
@@ -44,6 +45,7 @@ import { TopBar } from './TopBar'
 import { Tour } from './Tour'
 import { Welcome } from './Welcome'
 import { useAddress } from './address'
+import { Banners } from './Banners'
 
 const Conflict = lazy(() => import('../editor/Conflict'))
 
@@ -59,7 +61,6 @@ function Bench({ studio }: { studio: Studio }): ReactNode {
   const active = useStore(studio.store, (state) => state.active)
   const opened = useStore(studio.store, (state) => state.opened)
   const dialog = useStore(studio.store, (state) => state.dialog)
-  const online = useStore(studio.store, (state) => state.online)
   const [sidebar, setSidebar] = useState(window.innerWidth >= 1100)
   useAddress(studio)
   useEffect(() => {
@@ -67,6 +68,11 @@ function Bench({ studio }: { studio: Studio }): ReactNode {
     window.addEventListener('keydown', key, true)
     return () => window.removeEventListener('keydown', key, true)
   }, [studio])
+  const narrow = useStore(studio.store, (state) => state.narrow)
+  // The list of files lies on what it opens.
+  useEffect(() => void (narrow && setSidebar(false)), [narrow, active])
+  useLeaving(studio)
+  useNarrow(studio)
   const doc = studio.doc(active)
   const chart = studio.chart(active)
   const all = useMemo(() => commands(studio), [studio, active, opened, dialog])
@@ -76,12 +82,7 @@ function Bench({ studio }: { studio: Studio }): ReactNode {
       {sidebar && <Sidebar studio={studio} hide={() => setSidebar(false)} />}
       <main className="middle">
         <Tabs studio={studio} />
-        {online === 'closed' && (
-          <div className="offline" role="alert">
-            <Icon name="warning" size={14} />
-            {words.shell.offline}
-          </div>
-        )}
+        <Banners studio={studio} />
         <div className="stage">{doc ? <Editor key={doc.file.uri} studio={studio} doc={doc} chart={chart} /> : <Welcome studio={studio} />}</div>
         <Panels studio={studio} />
       </main>
@@ -90,6 +91,36 @@ function Bench({ studio }: { studio: Studio }): ReactNode {
       <Tour />
     </div>
   )
+}
+
+// SYNC(narrow): narrow.css.
+const NARROW = '(max-width: 800px)'
+
+function useNarrow(studio: Studio): void {
+  useEffect(() => {
+    const query = window.matchMedia(NARROW)
+    const look = (): void => studio.store.set({ narrow: query.matches })
+    look()
+    query.addEventListener('change', look)
+    return () => query.removeEventListener('change', look)
+  }, [studio])
+}
+
+// What is typed is written before the page is hidden or left; the browser asks while something could be lost.
+function useLeaving(studio: Studio): void {
+  useEffect(() => {
+    const hidden = (): void => void (document.visibilityState === 'hidden' && studio.flush())
+    const left = (): void => void studio.flush()
+    const leaving = (event: BeforeUnloadEvent): void => void (studio.flush() && event.preventDefault())
+    document.addEventListener('visibilitychange', hidden)
+    window.addEventListener('pagehide', left)
+    window.addEventListener('beforeunload', leaving)
+    return () => {
+      document.removeEventListener('visibilitychange', hidden)
+      window.removeEventListener('pagehide', left)
+      window.removeEventListener('beforeunload', leaving)
+    }
+  }, [studio])
 }
 
 function Tabs({ studio }: { studio: Studio }): ReactNode {
@@ -125,7 +156,7 @@ function Tabs({ studio }: { studio: Studio }): ReactNode {
 }
 
 function Editor({ studio, doc, chart }: { studio: Studio; doc: Doc; chart: Chart | undefined }): ReactNode {
-  const layout = useStore(studio.store, (state) => state.layout)
+  const layout = useStore(studio.store, layoutShown)
   const conflict = useStore(doc.store, (state) => state.sync.conflict !== null)
   const [share, setShare] = useState(() => Number(localStorage.getItem('groundstate-share') ?? 0.6))
   const resize = useCallback((next: number) => {
@@ -136,7 +167,7 @@ function Editor({ studio, doc, chart }: { studio: Studio; doc: Doc; chart: Chart
   if (conflict) {
     return (
       <Suspense fallback={null}>
-        <Conflict doc={doc} />
+        <Conflict studio={studio} doc={doc} />
       </Suspense>
     )
   }
@@ -168,9 +199,9 @@ function Drawings({ studio, chart }: { studio: Studio; chart: Chart }): ReactNod
   }
   return (
     <div className="drawings">
-      <div className="drawing-tabs" role="tablist" aria-label={words.shell.drawings}>
+      <div className="drawing-tabs" role="tablist" aria-label={words.shell.drawings} onKeyDown={tabKey}>
       {drawings.map((drawing) => (
-        <button key={drawing.name} role="tab" className={drawing.kind} aria-selected={drawing.name === shown} onClick={() => turn(drawing.name)}>
+        <button key={drawing.name} role="tab" className={drawing.kind} aria-selected={drawing.name === shown} tabIndex={drawing.name === shown ? 0 : -1} onClick={() => turn(drawing.name)}>
           <Icon name={drawing.kind === 'pattern' ? 'instance' : drawing.kind === 'system' ? 'component' : 'state'} size={14} />
           {drawing.title || drawing.name}
         </button>
@@ -190,6 +221,16 @@ function Drawings({ studio, chart }: { studio: Studio; chart: Chart }): ReactNod
   )
 }
 
+// Arrow keys go from tab to tab; Enter opens the one that has the focus.
+function tabKey(event: ReactKeyboardEvent<HTMLElement>): void {
+  const tabs = [...event.currentTarget.querySelectorAll<HTMLElement>('[role=tab]')]
+  const at = tabs.indexOf(document.activeElement as HTMLElement)
+  const to = { ArrowRight: at + 1, ArrowLeft: at - 1, Home: 0, End: tabs.length - 1 }[event.key]
+  if (at < 0 || to === undefined) return
+  event.preventDefault()
+  tabs.at(to % tabs.length)?.focus()
+}
+
 const PANELS: { panel: Panel; icon: string }[] = [
   { panel: 'problems', icon: 'warning' },
   { panel: 'run', icon: 'play' },
@@ -203,6 +244,7 @@ const PANELS: { panel: Panel; icon: string }[] = [
 function Panels({ studio }: { studio: Studio }): ReactNode {
   const panel = useStore(studio.store, (state) => state.panel)
   const problems = useStore(studio.store, counted)
+  const mild = useStore(studio.store, areWarnings)
   const running = useStore(studio.jobs.store, (state) => state.jobs.some((job) => job.running))
   const session = useStore(studio.runner.store, (state) => state.session !== null)
   const tall = useStore(studio.store, (state) => state.tall && state.panel === 'check')
@@ -218,12 +260,12 @@ function Panels({ studio }: { studio: Studio }): ReactNode {
     <section className="panels">
       {panel && <Splitter axis="y" value={Math.round((height / window.innerHeight) * 100)} resize={resize} />}
       <div className="panel-tabs">
-        <div className="row" role="tablist" aria-label={words.shell.panelTabs}>
+        <div className="row" role="tablist" aria-label={words.shell.panelTabs} onKeyDown={tabKey}>
         {PANELS.map(({ panel: one, icon }) => (
-          <button key={one} role="tab" aria-selected={panel === one} onClick={() => studio.store.set({ panel: panel === one ? null : one })}>
+          <button key={one} role="tab" aria-selected={panel === one} tabIndex={(panel ?? PANELS[0]?.panel) === one ? 0 : -1} onClick={() => studio.store.set({ panel: panel === one ? null : one })}>
             <Icon name={icon} size={13} />
             {words.shell.panels[one]}
-            {one === 'problems' && problems > 0 && <span className="count">{problems}</span>}
+            {one === 'problems' && problems > 0 && <span className={`count${mild ? ' warning' : ''}`}>{problems}</span>}
             {((one === 'check' && running) || (one === 'run' && session)) && <span className="busy-dot" aria-hidden="true" />}
           </button>
         ))}

@@ -5,21 +5,12 @@
 import { formatDocument } from '@codemirror/lsp-client'
 
 import type { File, JobKind } from '../diagram/protocol'
+import { withModel } from '../editor/ofChart'
 import { runsInFront, startRun } from '../editor/RunPanel'
 import type { Command } from '../editor/Search'
 import type { Layout, Studio } from '../editor/studio'
 import { words } from '../words'
 import { following, setTheme, theme } from './theme'
-
-// A chart's model; it is built first if it is not there.
-async function modelOf(studio: Studio, chart: File): Promise<File | null> {
-  const known = studio.sibling(chart, 'asm')
-  if (known) return known
-  const built = await studio.jobs.run('build', chart)
-  if (built?.code !== 0) return null
-  await studio.look()
-  return studio.sibling(chart, 'asm') ?? null
-}
 
 // Whether a chart has a system, by its picture, or by its text while there is none.
 function hasSystem(studio: Studio, chart: File): boolean {
@@ -35,7 +26,7 @@ export function jobsFor(studio: Studio, uri: string | null): { job: JobKind; act
   const start = (job: JobKind, at = file) => ({ job, act: () => void studio.jobs.start(job, at) })
   const onModel = (job: JobKind) => ({
     job,
-    act: () => void modelOf(studio, file).then((model) => model && studio.jobs.start(job, model)),
+    act: () => void withModel(studio, { what: job, chart: file, act: (model, isOlder) => void studio.jobs.start(job, model, undefined, { chart: file, isOlder }) }),
   })
   switch (file.kind) {
     case 'chart': {

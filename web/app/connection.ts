@@ -3,9 +3,9 @@
 // Owns: JSON-RPC requests with names of their own (`s1`, `s2`, …), so that the language client's numbers do not meet them;
 // notifications by method; the transport that the language client takes. It must not know what the messages mean.
 
+import { type Online, isLost } from '../editor/server'
+import { words } from '../words'
 import { Exported, exported } from './exported'
-
-export type Online = 'connecting' | 'open' | 'closed'
 
 interface Waiting {
   resolve: (result: unknown) => void
@@ -32,6 +32,8 @@ export class Refused extends Error {
 
 const FIRST_DELAY_MS = 250
 const LAST_DELAY_MS = 4000
+// What a studio answers to a page that has not its token.
+const FORBIDDEN = 403
 
 export class Connection {
   private socket: WebSocket | null = null
@@ -70,15 +72,26 @@ export class Connection {
     socket.onclose = () => {
       if (this.socket !== socket) return
       this.socket = null
-      for (const { reject } of this.waiting.values()) reject(new Refused('connection lost', 0))
+      for (const { reject } of this.waiting.values()) reject(new Refused(words.shell.connectionLost, 0))
       this.waiting.clear()
-      this.tell('closed')
+      if (this.online !== 'unknown') this.tell('closed')
+      void this.askWhy()
       setTimeout(() => this.open(), this.delay)
       this.delay = Math.min(this.delay * 2, LAST_DELAY_MS)
     }
   }
 
+  // A WebSocket does not say why it was refused; the page's own address does.
+  private async askWhy(): Promise<void> {
+    const status = await fetch('/', { method: 'HEAD', cache: 'no-store' }).then(
+      (response) => response.status,
+      () => null,
+    )
+    if (isLost(this.online)) this.tell(status === FORBIDDEN ? 'unknown' : 'closed')
+  }
+
   private tell(online: Online): void {
+    if (online === this.online) return
     this.online = online
     for (const watcher of this.watchers) watcher(online)
   }
@@ -115,7 +128,7 @@ export class Connection {
   request<Result>(method: string, params: unknown): Promise<Result> {
     if (this.kept) return this.ask(this.kept, method, params) as Promise<Result>
     const socket = this.socket
-    if (!socket || socket.readyState !== WebSocket.OPEN) return Promise.reject(new Refused('connection lost', 0))
+    if (!socket || socket.readyState !== WebSocket.OPEN) return Promise.reject(new Refused(words.shell.connectionLost, 0))
     const id = `s${++this.count}`
     return new Promise<Result>((resolve, reject) => {
       this.waiting.set(id, { resolve: resolve as (result: unknown) => void, reject })

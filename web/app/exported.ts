@@ -47,6 +47,8 @@ export class Exported {
         if (text === undefined) break
         return { text, hash: '' }
       }
+      case 'studio/model':
+        return { state: 'recorded' }
       case 'studio/job':
         return this.job(String(params.job), String(params.path))
       case 'initialize':

@@ -9,6 +9,7 @@ import type { Hello } from '../diagram/protocol'
 import { words } from '../words'
 import './colours.css'
 import './frame.css'
+import { isLost } from '../editor/server'
 import { Connection } from './connection'
 import { setTheme, theme } from './theme'
 
@@ -28,7 +29,7 @@ function Page(): ReactNode {
     }
     connection.watch((online) => {
       if (online === 'open') ask()
-      if (online === 'closed') setLost(true)
+      if (isLost(online)) setLost(true)
     })
     if (connection.online === 'open') ask()
   }, [hello])

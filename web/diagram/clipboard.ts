@@ -50,8 +50,11 @@ function isClip(value: unknown): value is Clip {
   return clip?.kind === MARK && Array.isArray(clip.shapes) && Array.isArray(clip.arrows)
 }
 
-// The operation that pastes a text with its middle at a place, or beside where it was copied; null if it holds no shapes.
-export function pasted(text: string, at: Point | null): Operation | null {
+const STEP = 20
+
+// The operation that pastes a text with its middle at a place, or beside where it was copied; null if it holds no shapes. Where one of them
+// would lie on a shape that is there, all go on by a step.
+export function pasted(text: string, at: Point | null, drawing: Drawing | null = null): Operation | null {
   let clip: unknown
   try {
     clip = JSON.parse(text)
@@ -68,7 +71,10 @@ export function pasted(text: string, at: Point | null): Operation | null {
   // The frame of a composite state would lie over the one that it was copied from.
   const beside: Point = composites.length > 0 ? [Math.round(box.width) + 200, 0] : [40, 40]
   const by: Point = at ? [Math.round((at[0] - cx) / 10) * 10, Math.round((at[1] - cy) / 10) * 10] : beside
-  const moved = (at: Point): [number, number] => [at[0] + by[0], at[1] + by[1]]
+  const taken = new Set((drawing?.picture.boxes ?? []).map((box) => centre(box).map(Math.round).join()))
+  let shift = 0
+  const moved = (at: Point): [number, number] => [at[0] + by[0] + shift, at[1] + by[1] + shift]
+  while (places.some((place) => taken.has(moved(place).join()))) shift += STEP
   const shapes = clip.shapes.map((shape): PastedShape => ({ ...shape, at: moved(shape.at) }))
   const held = composites.map((one): PastedComposite => ({
     ...one,

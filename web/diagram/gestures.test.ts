@@ -89,6 +89,18 @@ test('what is copied is pasted with the arrows between', () => {
   expect(copied(machine, ['enter'])).toBeNull()
 })
 
+test('a copy never lies on what is there', () => {
+  const machine = drawing(shapes())
+  const text = copied(machine, ['off'])!
+  const at = (drawing: ReturnType<typeof shapes>, place: readonly [number, number]) => pasted(text, place, { ...machine, picture: { ...machine.picture, boxes: drawing } })
+  const [off] = shapes()
+  const [x, y] = [off!.x + off!.width / 2, off!.y + off!.height / 2]
+  expect(at(shapes(), [x, y])).toMatchObject({ shapes: [{ id: 'off', at: [x + 20, y + 20] }] })
+  const second = { ...off!, id: 'off2', x: off!.x + 20, y: off!.y + 20 }
+  expect(at([...shapes(), second], [x, y])).toMatchObject({ shapes: [{ id: 'off', at: [x + 40, y + 40] }] })
+  expect(at(shapes(), [x + 300, y])).toMatchObject({ shapes: [{ id: 'off', at: [x + 300, y] }] })
+})
+
 test('a composite state is copied with what it holds', () => {
   const composite = { history: null, doings: [], source: 'composite state working ...' }
   const frame = { ...box('working', 'composite', 0, 0, 300, 300), composite }

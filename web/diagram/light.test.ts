@@ -3,7 +3,7 @@
 import { expect, test } from 'vitest'
 
 import { frames, functionOf, isControl, lit } from './light'
-import { NOTHING, faultsOn, pickAt, rangesOf, spoken } from './pick'
+import { type Fault, NOTHING, faultsOn, isSame, pickAt, rangesOf, spoken } from './pick'
 import { freeName } from './record'
 import { match, search } from './search'
 import { box, drawing, line } from './testing'
@@ -77,4 +77,14 @@ test('a few letters find a name', () => {
   expect(search('coffee', names, (name) => name).map(({ item }) => item)).toEqual(['CoffeeMachine.asm'])
   expect(match('zz', 'abc')).toBeNull()
   expect(match('', 'abc')).toEqual({ score: 0, at: [] })
+})
+
+test('what the language server and a job tell of one place is one fault', () => {
+  const range = { start: { line: 1, character: 2 }, end: { line: 1, character: 9 } }
+  const told: Fault = { uri: 'a', range, severity: 'error', message: 'it is too late: the deadline\nhelp: wait', code: 'late' }
+  const check = (change: Partial<Fault>, same: boolean): void => expect(isSame(told, { ...told, message: 'it is too late\nhelp: wait', ...change })).toBe(same)
+  check({}, true)
+  check({ code: 'early' }, false)
+  check({ message: 'it is too early' }, false)
+  check({ range: { ...range, end: { line: 2, character: 0 } } }, false)
 })

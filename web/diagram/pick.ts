@@ -56,6 +56,13 @@ export interface Fault {
   code: string
 }
 
+// Whether a job tells what the language server has told: the server says more of it.
+export function isSame(told: Fault, found: Fault): boolean {
+  const at = (a: Position, b: Position): boolean => comparePositions(a, b) === 0
+  const [said = ''] = found.message.split('\n')
+  return at(told.range.start, found.range.start) && at(told.range.end, found.range.end) && told.code === found.code && told.message.startsWith(said)
+}
+
 const WEIGHT: Record<Severity, number> = { error: 3, warning: 2, info: 1, hint: 0 }
 
 // The worst fault of each shape, by the ranges of their declarations and of their arrows.

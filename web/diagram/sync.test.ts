@@ -3,7 +3,7 @@
 import { expect, test } from 'vitest'
 
 import type { Written } from './protocol'
-import { type Effect, type Sync, type SyncEvent, opened, status, turn } from './sync'
+import { type Effect, type Sync, type SyncEvent, isAtRisk, opened, status, turn, writeAfter } from './sync'
 import { random } from './testing'
 import { applied, difference, rebased } from './text'
 
@@ -109,6 +109,25 @@ test('a file that is gone keeps its text, and is written again when asked', () =
   expect(editor.sent).toBeNull()
   editor.event({ kind: 'decided', text: editor.text })
   expect(editor.sent).toMatchObject({ text: 'b\n', base: null })
+})
+
+test('typing puts a write off for a second at most', () => {
+  expect([0, 300, 699, 700, 900, 1000, 5000].map(writeAfter)).toEqual([300, 300, 300, 300, 100, 0, 0])
+})
+
+test('what an earlier page could not write is written, or shown beside what the file holds now', () => {
+  const disk = new Disk('a\n')
+  const same = new Editor(disk)
+  same.event({ kind: 'kept', text: 'a\nmine\n', base: disk.hash })
+  expect([same.text, status(same.state), same.scheduled, isAtRisk(same.state)]).toEqual(['a\nmine\n', 'unsaved', true, true])
+  const other = new Editor(disk)
+  other.event({ kind: 'kept', text: 'mine\n', base: '#former\n' })
+  expect([other.text, other.state.conflict?.theirs, status(other.state)]).toEqual(['mine\n', 'a\n', 'conflict'])
+  other.event({ kind: 'decided', text: 'a\n' })
+  expect([other.text, status(other.state), isAtRisk(other.state)]).toEqual(['a\n', 'saved', false])
+  const written = new Editor(disk)
+  written.event({ kind: 'kept', text: 'a\n', base: '#former\n' })
+  expect(status(written.state)).toBe('saved')
 })
 
 // 10 000 events in random order: typing, writes from outside, answers that come late, connections that break.

@@ -33,6 +33,8 @@ export type SyncEvent =
   | { kind: 'offline' }
   | { kind: 'online' }
   | { kind: 'decided'; text: string }
+  // What an earlier page could not write, and the hash of what it may be written over.
+  | { kind: 'kept'; text: string; base: string | null }
 
 export type Effect =
   | { kind: 'write'; text: string; base: string | null }
@@ -93,8 +95,20 @@ export function turn(state: Sync, event: SyncEvent): Turn {
       return stay({ ...state, online: true, failure: null }, { kind: 'read' })
     case 'decided':
       return decided(state, event.text)
+    case 'kept':
+      return restored(state, event.text, event.base)
   }
 }
+
+// LIMIT: how long a text rests before it is written, and how long typing may put that off.
+const REST_MS = 300
+const MOST_MS = 1000
+
+// How long to wait with a write that has waited so long already.
+export const writeAfter = (waited: number): number => Math.max(0, Math.min(REST_MS, MOST_MS - waited))
+
+// Whether closing the page could lose something of a text, or of what the file holds instead.
+export const isAtRisk = (state: Sync): boolean => state.conflict !== null || isDirty(state)
 
 function write(state: Sync): Turn {
   const idle = state.online && state.sent === null && !state.conflict && !state.gone
@@ -151,4 +165,12 @@ function decided(state: Sync, text: string): Turn {
   const next: Sync = { ...state, text, base, baseText, conflict: null, failure: null }
   if (text === baseText && !state.gone) return stay(next, ...effects)
   return stay({ ...next, sent: text }, ...effects, { kind: 'write', text, base })
+}
+
+function restored(state: Sync, text: string, base: string | null): Turn {
+  if (text === state.text || state.base === null) return stay(state)
+  const apply: Effect = { kind: 'apply', changes: difference(state.text, text) }
+  if (base === state.base) return stay({ ...state, text }, apply, { kind: 'schedule' })
+  // The file is another one since: both are shown.
+  return stay({ ...state, text, conflict: { hash: state.base, theirs: state.baseText, merged: state.baseText } }, apply)
 }

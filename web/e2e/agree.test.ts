@@ -181,11 +181,11 @@ function outside(round: number): string {
 // Typing and writing while there is no connection: both are there when it is back.
 async function lost(round: number): Promise<string[]> {
   studio.cut(true)
-  await page.locator('.offline').waitFor()
+  await page.locator('.banner').waitFor()
   await typed(`// lost ${round}`)
   const theirs = outside(round)
   studio.cut(false)
-  await page.locator('.offline').waitFor({ state: 'detached', timeout: 20_000 })
+  await page.locator('.banner').waitFor({ state: 'detached', timeout: 20_000 })
   trouble.told = trouble.told.filter((line) => !line.includes('WebSocket'))
   return [`// lost ${round}`, theirs]
 }

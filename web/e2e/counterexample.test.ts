@@ -47,6 +47,7 @@ const litNow = (id: string) => page.locator(`.react-flow__node[data-id="${id}"] 
 
 test('a counterexample runs on the chart and the timeline, and is kept as a scenario', async () => {
   await page.getByRole('button', { name: 'Verify', exact: true }).click()
+  await page.getByRole('button', { name: 'Verify the old model' }).click()
   const verdict = page.locator('.verdict', { hasText: 'inv_gentle' })
   await verdict.filter({ hasText: 'violated' }).waitFor({ timeout: 40_000 })
   await verdict.getByRole('button', { name: 'Run it' }).click()
@@ -80,6 +81,7 @@ test('a counterexample runs on the chart and the timeline, and is kept as a scen
 
 test('a counterexample of a model that is gone says so', async () => {
   await page.getByRole('button', { name: 'Verify', exact: true }).click()
+  await page.getByRole('button', { name: 'Verify the old model' }).click()
   const verdict = page.locator('.verdict', { hasText: 'inv_gentle' })
   await verdict.filter({ hasText: 'violated' }).waitFor({ timeout: 40_000 })
   // The model is another meanwhile: what the scenario chooses is not there any more.
@@ -94,6 +96,7 @@ test('a counterexample of a model that is gone says so', async () => {
 test('a run at random is recorded with its choices and inputs, and passes as a scenario', async () => {
   await page.getByRole('tab', { name: 'Run', exact: true }).click()
   await page.getByRole('button', { name: 'Run with random inputs' }).click()
+  await page.getByRole('button', { name: 'Run the old model' }).click()
   await page.locator('.run-step', { hasText: 'Step 0' }).waitFor()
   // Many steps at a time are as many steps of the scenario.
   await page.getByLabel('Speed', { exact: true }).selectOption({ label: 'As fast as can be' })

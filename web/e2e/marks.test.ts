@@ -101,6 +101,7 @@ test('mutants that nobody notices are marked on the shapes and lead to their pla
 test('what a review finds is marked on the shapes and leads to its place', async () => {
   writeFileSync(path('Lamp.asm'), readFileSync(path('Lamp.asm'), 'utf8').replace('if held then', 'if held and light = OFF then'))
   await start('Review')
+  await page.getByRole('button', { name: 'Review the old model' }).click()
   await page.locator('.verdict', { hasText: 'MP3' }).first().waitFor({ timeout: 50_000 })
   await shape(page, 'on').locator('.fault-badge').waitFor()
   await shot(page, 'review')

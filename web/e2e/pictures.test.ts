@@ -136,6 +136,7 @@ test('the state graph', async () => {
   await shape(page, 'ajar').waitFor()
   await page.getByRole('tab', { name: 'State graph' }).click()
   await page.getByRole('button', { name: 'Draw the states of Door.asm' }).click()
+  await page.getByRole('button', { name: 'Draw the old model' }).click()
   await page.locator('.graph-dot').first().waitFor({ timeout: 30_000 })
   await page.locator('.graph-picture').focus()
   for (const key of ['Home', 'ArrowRight', 'ArrowRight', 'ArrowRight', 'ArrowRight']) await page.keyboard.press(key)

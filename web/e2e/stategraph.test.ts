@@ -62,6 +62,7 @@ const dots = () => page.locator('.graph-dot')
 async function drawn(): Promise<void> {
   await page.getByRole('tab', { name: 'State graph' }).click()
   await page.getByRole('button', { name: 'Draw the states of Door.asm' }).click()
+  await page.getByRole('button', { name: 'Draw the old model' }).click()
   await dots().first().waitFor({ timeout: 20_000 })
 }
 

@@ -30,6 +30,8 @@ import { useStore } from './store'
 import type { Studio } from './studio'
 
 const NODE_TYPES = { shape: ShapeNode }
+// With one of these, a click adds to what is selected.
+const ADD_KEYS = ['Control', 'Meta', 'Shift']
 const SNAP: [number, number] = [GRID, GRID]
 const miniClass = (node: Node): string => `mini ${(node as ShapeNodeType).data.box.figure}`
 const NO_FAULTS: Fault[] = []
@@ -295,6 +297,8 @@ function Shown({ studio, chart, drawing }: { studio: Studio; chart: Chart; drawi
           snapToGrid={false}
           snapGrid={SNAP}
           deleteKeyCode={null}
+          multiSelectionKeyCode={ADD_KEYS}
+          selectionKeyCode={null}
           selectionOnDrag={!tool.shape}
           selectionMode={SelectionMode.Partial}
           panOnDrag={[1, 2]}

@@ -1,14 +1,17 @@
-// What jobs found: verdicts with counterexamples that play, results of scenarios, differences, output.
+// What jobs found: verdicts with counterexamples that play, results of scenarios, differences, output; whether it still holds of the texts.
 
 import { type ReactNode, useEffect, useState } from 'react'
 
+import { type Outcome, hasPassed } from '../diagram/outcome'
 import { words } from '../words'
+import { changedSince } from './currency'
 import { Icon } from './icons'
 import { MARKED, Marked } from './Marked'
 import { PROGRAM_LINES, ProgramResult, latest } from './ProgramResult'
 import { REFINEMENT, Refined, refinementOf } from './Refined'
 import { TimesTables } from './TimesTable'
-import { type Job, type LinePlace, type ScenarioResult, type ToldFault, type Verdict, faultLines, scenarios, timesOf, verdicts } from './jobs'
+import { type Job, type LinePlace, type ScenarioResult, type ToldFault, type Verdict, faultLines, outcome, scenarios, timesOf, verdicts } from './jobs'
+import { again, lastName, runOf, withModel } from './ofChart'
 import { useFrame } from './shown'
 import { useStore } from './store'
 import type { Studio } from './studio'
@@ -25,6 +28,7 @@ export async function goTo(studio: Studio, place: LinePlace | undefined): Promis
 export function CheckPanel({ studio }: { studio: Studio }): ReactNode {
   const { jobs, shown } = useStore(studio.jobs.store, (state) => state)
   const job = jobs.find((job) => job.id === shown) ?? jobs[0]
+  const changed = useStore(studio.currency.store, (state) => state.changed)
   const played = useFrame(studio)
   if (!job) {
     return (
@@ -34,25 +38,30 @@ export function CheckPanel({ studio }: { studio: Studio }): ReactNode {
       </div>
     )
   }
+  const isFormer = changed.has(job.id)
   return (
     <div className="check">
       <ul className="job-list" aria-label={words.check.jobs}>
         {jobs.map((other) => (
           <li key={other.id}>
             <button className={other.id === job.id ? 'on' : undefined} aria-current={other.id === job.id} onClick={() => studio.jobs.show(other.id)}>
-              <Outcome job={other} />
+              <OutcomeWord job={other} isFormer={changed.has(other.id)} />
               <span className="job-name">{words.jobs[other.job]}</span>
-              <span className="job-file">{other.file.path.split('/').at(-1)}</span>
+              <span className="job-file">{lastName(other.file.path)}</span>
+              <time className="job-time" title={words.check.began(clock(other.began))}>
+                {clock(other.began)}
+              </time>
             </button>
           </li>
         ))}
       </ul>
-      <div className="job" aria-live="polite">
-        <header className="row">
+      <div className={`job${isFormer ? ' former' : ''}`} aria-live="polite">
+        <header className="row wrap">
           <h3>
             {words.jobs[job.job]} <span className="faint">{job.file.path}</span>
           </h3>
-          <Outcome job={job} named />
+          <OutcomeWord job={job} isFormer={isFormer} named />
+          <Currency studio={studio} job={job} />
           {job.progress !== null && <span className="faint progress">{job.progress}</span>}
           <span className="grow" />
           {job.running && <Elapsed since={job.began} />}
@@ -62,7 +71,7 @@ export function CheckPanel({ studio }: { studio: Studio }): ReactNode {
               {words.check.stop}
             </button>
           ) : (
-            <button className="small" onClick={() => void studio.jobs.start(job.job, job.file, job.options)}>
+            <button className={`small${isFormer ? ' primary' : ''}`} onClick={() => again(studio, job)}>
               <Icon name="restart" size={13} />
               {words.check.again}
             </button>
@@ -86,23 +95,45 @@ function Elapsed({ since }: { since: number }): ReactNode {
   return <span className="faint">{words.check.elapsed(Math.round((Date.now() - since) / 1000))}</span>
 }
 
-function Outcome({ job, named = false }: { job: Job; named?: boolean }): ReactNode {
-  const [tone, word, icon] = job.running
-    ? ['running', words.check.running, 'restart']
-    : job.code === 0
-      ? ['good', words.check.good, 'check']
-      : job.code === 1
-        ? ['bad', words.check.bad, 'cross']
-        : job.code === 3
-          ? ['unknown', words.check.unknown, 'question']
-          : job.code === null
-            ? ['unknown', words.check.stopped, 'stop']
-            : ['bad', words.check.world, 'warning']
+const clock = (time: number): string => new Date(time).toLocaleTimeString('en-GB', { hour: '2-digit', minute: '2-digit' })
+
+const OUTCOMES: Record<Outcome['kind'], [tone: string, icon: string, word: string]> = {
+  running: ['running', 'restart', words.check.running],
+  good: ['good', 'check', words.check.good],
+  bad: ['bad', 'cross', words.check.bad],
+  unknown: ['unknown', 'question', words.check.unknown],
+  stopped: ['unknown', 'stop', words.check.stopped],
+  world: ['bad', 'warning', words.check.world],
+  elsewhere: ['neutral', 'question', words.check.nothingOfIt],
+  conforms: ['unknown', 'warning', ''],
+}
+
+// What was found of other texts is told, but not in its colour.
+function OutcomeWord({ job, isFormer, named = false }: { job: Job; isFormer: boolean; named?: boolean }): ReactNode {
+  const found = outcome(job)
+  const [tone, icon, known] = OUTCOMES[found.kind]
+  const word = found.kind === 'conforms' ? words.check.conforms(found.beside) : known
   return (
-    <span className={`outcome ${tone}`} title={word}>
+    <span className={`outcome ${isFormer ? 'neutral' : tone}`} title={word}>
       <Icon name={icon} size={13} />
       {named ? word : <span className="unseen">{word}</span>}
     </span>
+  )
+}
+
+// That a result is of texts that are others now, or of a model that is not the chart's.
+export function Currency({ studio, job }: { studio: Studio; job: Job }): ReactNode {
+  const changed = useStore(studio.currency.store, (state) => changedSince(state.changed, job))
+  return (
+    <>
+      {job.isOlder && <span className="outcome unknown currency">{words.older.model}</span>}
+      {changed.length > 0 && (
+        <span className="outcome unknown currency" role="status">
+          <Icon name="warning" size={13} />
+          {words.older.changed(changed.map(lastName))}
+        </span>
+      )}
+    </>
   )
 }
 
@@ -115,6 +146,7 @@ function Findings({ studio, job }: { studio: Studio; job: Job }): ReactNode {
   const rest = latest(job).filter((line) => typeof line === 'string' || !['verdict', 'scenario', 'summary', 'progress', 'fault', 'times', 'graph-state', REFINEMENT, ...MARKED, ...PROGRAM_LINES].includes(String(line['type'])))
   return (
     <>
+      <Done studio={studio} job={job} />
       {job.running && job.job !== 'program' && <p className="faint-note doing">{words.check.doing[job.job]}</p>}
       {found.length > 0 && (
         <ul className="verdicts">
@@ -146,11 +178,37 @@ function Findings({ studio, job }: { studio: Studio; job: Job }): ReactNode {
   )
 }
 
-// A counterexample as a run of its model: of a system, the model that was built from the chart.
+// What a job did that writes or compares, and which scenarios a test had: its lines do not say it.
+function Done({ studio, job }: { studio: Studio; job: Job }): ReactNode {
+  const found = outcome(job)
+  const name = lastName(job.file.path)
+  if (found.kind === 'elsewhere') return <p className="note">{words.check.elsewhere(name, found.of.map(lastName), found.passed, found.played)}</p>
+  if (found.kind !== 'good') return null
+  switch (job.job) {
+    case 'check':
+      return <p className="note">{words.check.agrees}</p>
+    case 'build':
+      return <p className="note">{words.check.builtFrom(name.replace(/\.chart$/, '.asm'), name)}</p>
+    case 'generate':
+      return (
+        <p className="note">
+          {words.check.written(job.folder ?? '')}{' '}
+          <button className="link-button" onClick={() => studio.store.set({ panel: 'code' })}>
+            {words.check.showCode}
+          </button>
+        </p>
+      )
+    default:
+      return null
+  }
+}
+
+// A counterexample as a run of its model: of a system, the model that is built from the chart.
 async function runCounterexample(studio: Studio, job: Job, scenario: string): Promise<void> {
-  const model = job.file.kind === 'chart' ? studio.sibling(job.file, 'asm') : job.file
-  if (model) await studio.runner.openScript(model, scenario)
-  else studio.tell(words.run.noModel(job.file.path.replace(/\.chart$/, '.asm')), 'refused')
+  studio.jobs.leave()
+  const { file, chart, isOlder } = job
+  if (file.kind === 'chart') return withModel(studio, runOf(studio, file, null, null, scenario))
+  await studio.runner.open(file, null, null, scenario, chart && { chart, text: studio.doc(chart.uri)?.text ?? null, isOlder })
 }
 
 const MARK = { holds: ['good', 'check'], violated: ['bad', 'cross'], unknown: ['unknown', 'question'] } as const
@@ -158,6 +216,7 @@ const MARK = { holds: ['good', 'check'], violated: ['bad', 'cross'], unknown: ['
 function VerdictLine({ studio, job, verdict }: { studio: Studio; job: Job; verdict: Verdict }): ReactNode {
   const [tone, icon] = MARK[verdict.verdict]
   const steps = verdict.trace?.length ?? 0
+  const left = verdict.omitted?.trace
   const said = verdict.verdict === 'unknown' ? words.check.unknownVerdict : words.check[verdict.verdict]
   return (
     <li className="verdict">
@@ -169,15 +228,18 @@ function VerdictLine({ studio, job, verdict }: { studio: Studio; job: Job; verdi
         <button className="link-button mono" onClick={() => void goTo(studio, verdict.at)}>
           {verdict.check}
         </button>
+      ) : verdict.kind === 'builtin' ? (
+        <span>{words.check.builtin[verdict.check] ?? verdict.check}</span>
       ) : (
         <code>{verdict.check}</code>
       )}
       <span className="faint">{verdict.by ?? (verdict.states !== undefined ? words.check.states(verdict.states) : (verdict.reasons ?? []).join(' '))}</span>
+      {left && <span className="faint left-out">{leftOut(steps, left)}</span>}
       <span className="grow" />
       {steps > 0 && (
         <button className="small" onClick={() => studio.jobs.play(job.id, verdict.check, 0)}>
           <Icon name="play" size={12} />
-          {words.check.trace(steps - 1)}
+          {words.check.trace(steps + (left?.steps ?? 0) - 1)}
         </button>
       )}
       {verdict.scenario !== undefined && (
@@ -188,6 +250,11 @@ function VerdictLine({ studio, job, verdict }: { studio: Studio; job: Job; verdi
       )}
     </li>
   )
+}
+
+// Which steps of a counterexample are here.
+function leftOut(steps: number, { after, steps: left }: { after: number; steps: number }): string {
+  return steps === 0 ? words.check.noSteps(left) : words.check.omitted(after, steps - after, steps + left)
 }
 
 // A fault with the other places that it speaks of.
@@ -202,6 +269,7 @@ function FaultLine({ studio, fault }: { studio: Studio; fault: ToldFault }): Rea
         <button className="link-button" onClick={() => void goTo(studio, fault)}>
           {fault.message}
         </button>
+        {fault.help && <p className="help">{words.check.help(fault.help)}</p>}
         {(fault.labels ?? []).map((label, index) => (
           <button key={index} className="link-button label" onClick={() => void goTo(studio, label)}>
             {label.text}
@@ -213,7 +281,7 @@ function FaultLine({ studio, fault }: { studio: Studio; fault: ToldFault }): Rea
 }
 
 function ScenarioLine({ studio, scenario }: { studio: Studio; scenario: ScenarioResult }): ReactNode {
-  const good = scenario.result === 'passed' || scenario.result === 'failed-as-expected'
+  const good = hasPassed(scenario)
   const fault = scenario.faults[0]
   return (
     <li className="verdict">
@@ -268,7 +336,7 @@ function Output({ studio, lines }: { studio: Studio; lines: (string | Record<str
 
 // A counterexample, step by step; the charts show its state.
 function Player({ studio, played }: { studio: Studio; played: NonNullable<ReturnType<typeof useFrame>> }): ReactNode {
-  const { frame, count, verdict, playing } = played
+  const { frame, count, end, verdict, playing } = played
   const { jobs } = studio
   const last = count - 1
   const go = (at: number): void => jobs.play(playing.job, playing.check, Math.max(0, Math.min(at, last)))
@@ -283,7 +351,7 @@ function Player({ studio, played }: { studio: Studio; played: NonNullable<Return
         </button>
         <input type="range" min={0} max={last} value={playing.at} aria-label={words.check.counterexample} onChange={(event) => go(Number(event.target.value))} />
         <span className="run-step">
-          {words.run.stepNumber(frame.step)} / {last}
+          {words.run.stepNumber(frame.step)} / {end}
         </span>
         <button className="square" title={words.check.leave} aria-label={words.check.leave} onClick={() => jobs.leave()}>
           <Icon name="close" />
@@ -291,6 +359,7 @@ function Player({ studio, played }: { studio: Studio; played: NonNullable<Return
       </header>
       <div className="scroll" tabIndex={0}>
         {verdict.again_from !== undefined && verdict.again_from !== null && <p className="note">{words.check.repeats(verdict.again_from)}</p>}
+        {verdict.omitted?.trace && playing.at === verdict.omitted.trace.after && <p className="note">{words.check.between(verdict.omitted.trace.steps)}</p>}
         {frame.fault !== null && <p className="note bad">{frame.fault}</p>}
         {frame.inputs.length > 0 && <Pairs title={words.check.inputs} pairs={frame.inputs} />}
         {frame.choices.length > 0 && (

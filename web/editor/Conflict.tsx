@@ -1,6 +1,6 @@
 // A conflict, side by side: the user's text on the left, which can be edited, the file's on the right.
 //
-// In: a document in conflict. Out: the decision, written with the hash of what the file holds. Nothing is lost on the way.
+// In: a document in conflict. Out: the decision, written with the hash of what the file holds. Until then the browser keeps the user's text.
 
 import { MergeView } from '@codemirror/merge'
 import { EditorState } from '@codemirror/state'
@@ -11,19 +11,25 @@ import { words } from '../words'
 import type { Doc } from './document'
 import { coloured } from './language'
 import { useStore } from './store'
+import type { Studio } from './studio'
 import { editorTheme } from './theme'
 
-export default function Conflict({ doc }: { doc: Doc }): ReactNode {
+export default function Conflict({ studio, doc }: { studio: Studio; doc: Doc }): ReactNode {
   const place = useRef<HTMLDivElement>(null)
   const view = useRef<MergeView | null>(null)
   const conflict = useStore(doc.store, (state) => state.sync.conflict)
   const theirs = conflict?.theirs
+  const failed = useStore(studio.rescue.store, (state) => state.failed.has(doc.file.path))
   useEffect(() => {
     const parent = place.current
     if (!parent || theirs === undefined) return
+    const kept = (text: string): void => {
+      doc.mine = text
+      studio.rescue.now(doc)
+    }
     const shared = [lineNumbers(), coloured(doc.file.kind), editorTheme, EditorState.lineSeparator.of('\n'), EditorState.tabSize.of(4)]
     view.current = new MergeView({
-      a: { doc: doc.text, extensions: shared },
+      a: { doc: doc.mine ?? doc.text, extensions: [...shared, EditorView.updateListener.of(({ state, docChanged }) => docChanged && kept(state.doc.toString()))] },
       b: { doc: theirs, extensions: [...shared, EditorState.readOnly.of(true), EditorView.editable.of(false)] },
       parent,
       revertControls: 'b-to-a',
@@ -31,15 +37,20 @@ export default function Conflict({ doc }: { doc: Doc }): ReactNode {
       gutter: true,
     })
     return () => view.current?.destroy()
-  }, [doc, theirs])
+  }, [studio, doc, theirs])
   if (!conflict) return null
-  const decide = (text: string): void => doc.event({ kind: 'decided', text })
+  const decide = (text: string): void => {
+    doc.mine = null
+    doc.event({ kind: 'decided', text })
+  }
   return (
     <div className="conflict" role="dialog" aria-label={words.conflict.title}>
       <header>
         <div>
           <h2>{words.conflict.title}</h2>
-          <p>{words.conflict.hint}</p>
+          <p>
+            {words.conflict.hint} {failed ? words.kept.notInBrowser : words.kept.inBrowser}
+          </p>
         </div>
         <div className="row">
           <button className="primary" onClick={() => decide(view.current?.a.state.doc.toString() ?? doc.text)}>

@@ -2,8 +2,11 @@
 
 import { type FormEvent, type ReactNode, useEffect, useRef, useState } from 'react'
 
+import type { File } from '../diagram/protocol'
+import { status } from '../diagram/sync'
 import { words } from '../words'
 import { Icon } from './icons'
+import { type OfChart, buildFirst, lastName } from './ofChart'
 import { type Command, Search } from './Search'
 import { useStore } from './store'
 import type { Studio } from './studio'
@@ -45,6 +48,10 @@ export function Dialogs({ studio, commands }: { studio: Studio; commands: Comman
       return <NewMachine studio={studio} uri={dialog.uri} close={close} />
     case 'rename':
       return <Rename studio={studio} dialog={dialog} close={close} />
+    case 'older':
+      return <Older studio={studio} asked={dialog.asked} model={dialog.model} state={dialog.state} close={close} />
+    case 'closing':
+      return <Closing studio={studio} uri={dialog.uri} close={close} />
     case 'keys':
       return <Keys close={close} />
   }
@@ -134,6 +141,70 @@ function NewMachine({ studio, uri, close }: { studio: Studio; uri: string; close
         {name !== '' && !good && <p className="note bad">{words.dialogs.badName}</p>}
         <Buttons act={words.dialogs.create} enabled={good} close={close} />
       </form>
+    </Frame>
+  )
+}
+
+// The model of a chart is not the one that it would be built to: which one is meant?
+function Older({ studio, asked, model, state, close }: { studio: Studio; asked: OfChart; model: File; state: 'differs' | 'faulty' | 'unknown'; close: () => void }): ReactNode {
+  const [build, takeOld] = words.older.acts[asked.what]
+  const title = words.older.differs(lastName(asked.chart.path), lastName(model.path))
+  const done = (act: () => void) => () => {
+    close()
+    act()
+  }
+  const old = done(() => asked.act(model, true))
+  return (
+    <Frame label={title} close={close}>
+      <div className="dialog">
+        <h2>{title}</h2>
+        <p className="hint">{words.older.hints[state]}</p>
+        <footer className="row wrap">
+          <span className="grow" />
+          <button onClick={close}>{words.dialogs.cancel}</button>
+          <button onClick={old}>{takeOld}</button>
+          {state === 'faulty' ? (
+            <button className="primary" autoFocus onClick={done(() => studio.store.set({ panel: 'problems' }))}>
+              {words.older.faults}
+            </button>
+          ) : (
+            !studio.hello.readOnly && (
+              <button className="primary" autoFocus onClick={done(() => void buildFirst(studio, asked))}>
+                {build}
+              </button>
+            )
+          )}
+        </footer>
+      </div>
+    </Frame>
+  )
+}
+
+// A text that is in no file is to be closed.
+function Closing({ studio, uri, close }: { studio: Studio; uri: string; close: () => void }): ReactNode {
+  const doc = studio.doc(uri)
+  if (!doc) return null
+  const title = words.kept.closing(lastName(doc.file.path))
+  return (
+    <Frame label={title} close={close}>
+      <div className="dialog">
+        <h2>{title}</h2>
+        <p className="hint">{words.kept.closingHint[status(doc.store.get().sync)]}</p>
+        <footer className="row wrap">
+          <span className="grow" />
+          <button
+            onClick={() => {
+              close()
+              studio.discard(uri)
+            }}
+          >
+            {words.kept.discardText}
+          </button>
+          <button className="primary" autoFocus onClick={close}>
+            {words.kept.keep}
+          </button>
+        </footer>
+      </div>
     </Frame>
   )
 }

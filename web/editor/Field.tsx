@@ -1,6 +1,6 @@
 // A field with its label: committed by Enter or by leaving it; and a switch.
 //
-// In: a value. Out: what was typed instead. A commit that is refused puts the value back.
+// In: a value. Out: what was typed instead. What is refused stays in the field to be mended; whoever commits says why (`operating`).
 
 import { type FormEvent, type ReactNode, useEffect, useId, useState } from 'react'
 
@@ -16,15 +16,17 @@ interface FieldProps {
   focused?: () => void
 }
 
-// A field that is committed by Enter or by leaving it, and goes back if the commit is refused.
+// A field that is committed by Enter or by leaving it. Escape puts the value back.
 export function TextField({ name, label, value, placeholder, mono, readOnly, list, commit, focused }: FieldProps): ReactNode {
   const id = useId()
   const [text, setText] = useState(value)
+  const [refused, setRefused] = useState<string | null>(null)
   useEffect(() => setText(value), [value])
   const send = async (): Promise<void> => {
     const next = text.trim()
     if (next === value) return setText(value)
-    if (!(await commit(next))) setText(value)
+    // Leaving the field does not ask once more.
+    if (next !== refused) setRefused((await commit(next)) ? null : next)
   }
   const submit = (event: FormEvent): void => {
     event.preventDefault()
@@ -41,6 +43,7 @@ export function TextField({ name, label, value, placeholder, mono, readOnly, lis
         placeholder={placeholder}
         readOnly={readOnly}
         list={list}
+        aria-invalid={refused !== null && text.trim() === refused}
         spellCheck={false}
         autoComplete="off"
         onFocus={focused}

@@ -5,10 +5,13 @@
 import { type FormEvent, type ReactNode, useEffect, useMemo, useState } from 'react'
 
 import { type ListedState, type Listing, type Places, edgesOf, listing } from '../diagram/stategraph'
+import type { File } from '../diagram/protocol'
 import { words } from '../words'
+import { Currency } from './CheckPanel'
 import { GraphPicture } from './GraphPicture'
 import { Icon } from './icons'
 import type { Job } from './jobs'
+import { again as askAgain, withModel } from './ofChart'
 import { useStore } from './store'
 import type { Studio } from './studio'
 import { runnable } from './RunPanel'
@@ -27,13 +30,21 @@ export function GraphPanel({ studio }: { studio: Studio }): ReactNode {
       <h3>{words.graph.none}</h3>
       <p>{model ? words.graph.noneHint : words.graph.noModel}</p>
       {model && (
-        <button className="primary" onClick={() => void studio.jobs.start('graph', model)}>
+        <button className="primary" onClick={() => draw(studio, model)}>
           <Icon name="states" />
           {words.graph.draw(model.path.split('/').at(-1) ?? model.path)}
         </button>
       )}
     </div>
   )
+}
+
+// The states of the model in front, or of that of the chart in front.
+function draw(studio: Studio, model: File): void {
+  const { active } = studio.store.get()
+  const front = active === null ? undefined : studio.file(active)
+  if (front?.kind !== 'chart') return void studio.jobs.start('graph', model)
+  void withModel(studio, { what: 'graph', chart: front, act: (model, isOlder) => void studio.jobs.start('graph', model, {}, { chart: front, isOlder }) })
 }
 
 // The places of a listing that is whole, made by a worker that ends with the panel.
@@ -96,9 +107,10 @@ function Told({ lines }: { lines: (string | Record<string, unknown>)[] }): React
 function Head({ studio, job, all, hides, setHides }: { studio: Studio; job: Job; all: Listing | null; hides: boolean; setHides: (hides: boolean) => void }): ReactNode {
   const asked = ((job.options as { where?: string[] }).where ?? [])[0] ?? ''
   const [term, setTerm] = useState(asked)
+  const isFormer = useStore(studio.currency.store, (state) => state.changed.has(job.id))
   const again = (event?: FormEvent): void => {
     event?.preventDefault()
-    void studio.jobs.start('graph', job.file, term.trim() === '' ? {} : { where: [term.trim()] })
+    askAgain(studio, { ...job, options: term.trim() === '' ? {} : { where: [term.trim()] } })
   }
   const count = all?.states.filter((state) => state.holds?.[0] === true).length ?? 0
   return (
@@ -108,6 +120,7 @@ function Head({ studio, job, all, hides, setHides }: { studio: Studio; job: Job;
       </h3>
       {all?.end && <span className={all.end.complete ? 'faint' : 'graph-open'}>{words.graph.size(all.end.states, all.end.steps, all.end.complete, all.end.reason ?? '')}</span>}
       {all && all.end === null && all.states.length > 0 && <span className="graph-open">{words.graph.stopped}</span>}
+      <Currency studio={studio} job={job} />
       <span className="grow" />
       {asked !== '' && all && <span className="faint">{words.graph.where(count)}</span>}
       <form onSubmit={again}>
@@ -125,7 +138,7 @@ function Head({ studio, job, all, hides, setHides }: { studio: Studio; job: Job;
           {words.check.stop}
         </button>
       ) : (
-        <button className="small" onClick={() => again()}>
+        <button className={`small${isFormer ? ' primary' : ''}`} onClick={() => again()}>
           <Icon name="restart" size={13} />
           {words.check.again}
         </button>

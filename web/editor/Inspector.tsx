@@ -6,7 +6,7 @@ import { type ReactNode, useEffect, useId, useState } from 'react'
 
 import { arrowOf, frames } from '../diagram/gestures'
 import { faultsOn } from '../diagram/pick'
-import type { Box, Drawing } from '../diagram/protocol'
+import type { Box, Drawing, Operation } from '../diagram/protocol'
 import { words } from '../words'
 import type { Chart } from './chart'
 import { CompositeFields } from './CompositeFields'
@@ -14,6 +14,7 @@ import { Switch, TextField } from './Field'
 import { Icon } from './icons'
 import { deleteSelected } from './keys'
 import { linkOffers } from './offers'
+import { Told, useOperation } from './operating'
 import { breakTerm } from './shown'
 import { useStore } from './store'
 import type { Studio } from './studio'
@@ -102,12 +103,13 @@ function OneBox({ studio, chart, drawing, box, naming }: OneBoxProps): ReactNode
   const ends = box.figure === 'enter' || box.figure === 'exit'
   const system = drawing.kind === 'system'
   const links = !system && !ends && box.figure !== 'composite'
-  const rename = async (name: string): Promise<boolean> => {
+  const acting = useOperation({ chart })
+  const rename = (name: string): Promise<boolean> => {
     naming(name)
-    return (await chart.operate({ kind: 'rename', id: box.id, name })) !== null
+    return acting.act('name', { kind: 'rename', id: box.id, name }, { select: true })
   }
-  const set = (operation: Parameters<Chart['operate']>[0]): Promise<boolean> =>
-    chart.operate(operation, { select: false }).then((done) => done !== null)
+  const set = (operation: Operation): Promise<boolean> => acting.act(operation.kind, operation)
+  const told = (key: string): ReactNode => <Told reason={acting.refused.get(key) ?? null} />
   return (
     <div className="fields">
       {fault && (
@@ -116,20 +118,29 @@ function OneBox({ studio, chart, drawing, box, naming }: OneBoxProps): ReactNode
         </p>
       )}
       {!ends && (
-        <TextField name="name" label={words.inspector.name} value={box.id} mono readOnly={readOnly || !box.nameRange} commit={rename} />
+        <div className="property">
+          <TextField name="name" label={words.inspector.name} value={box.id} mono readOnly={readOnly || !box.nameRange} commit={rename} />
+          {told('name')}
+        </div>
       )}
       {!ends && box.figure !== 'channel' && (
-        <TextField
-          name="text"
-          label={words.inspector.text}
-          value={box.label}
-          placeholder={box.figure === 'block' ? '' : box.lines.join(' ')}
-          readOnly={readOnly}
-          commit={(text) => set({ kind: 'text', id: box.id, text: text === '' ? null : text })}
-        />
+        <div className="property">
+          <TextField
+            name="text"
+            label={words.inspector.text}
+            value={box.label}
+            placeholder={box.figure === 'block' ? '' : box.lines.join(' ')}
+            readOnly={readOnly}
+            commit={(text) => set({ kind: 'text', id: box.id, text: text === '' ? null : text })}
+          />
+          {told('text')}
+        </div>
       )}
       {links && (
-        <LinkField studio={studio} chart={chart} drawing={drawing} box={box} readOnly={readOnly} commit={(link) => set({ kind: 'link', id: box.id, link: link === '' ? null : link })} />
+        <div className="property">
+          <LinkField studio={studio} chart={chart} drawing={drawing} box={box} readOnly={readOnly} commit={(link) => set({ kind: 'link', id: box.id, link: link === '' ? null : link })} />
+          {told('link')}
+        </div>
       )}
       {(box.figure === 'circle' || box.figure === 'composite') && (
         <Switch
@@ -139,6 +150,7 @@ function OneBox({ studio, chart, drawing, box, naming }: OneBoxProps): ReactNode
           flip={() => void set({ kind: 'initial', id: box.id })}
         />
       )}
+      {told('initial')}
       {!system && !ends && box.nameRange && (box.within || frames(drawing, box).length > 0) && (
         <Within chart={chart} drawing={drawing} box={box} readOnly={readOnly} />
       )}
@@ -162,6 +174,7 @@ function OneBox({ studio, chart, drawing, box, naming }: OneBoxProps): ReactNode
               commit={(by) => set({ kind: 'refine', id: box.id, refine: { by: by === '' ? null : by } })}
             />
           )}
+          {told('refine')}
         </>
       )}
       {box.of !== null && (

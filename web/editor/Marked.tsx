@@ -63,6 +63,7 @@ export function Marked({ studio, job }: { studio: Studio; job: Job }): ReactNode
               <Place studio={studio} place={finding}>
                 {finding.message}
               </Place>
+              <span className="faint">{words.check.line(finding.line)}</span>
             </li>
           ))}
         </ul>
@@ -88,6 +89,7 @@ export function Marked({ studio, job }: { studio: Studio; job: Job }): ReactNode
                 <Place studio={studio} place={item}>
                   {words.marks.uncovered(item.what, item.rule)}
                 </Place>
+                <span className="faint">{words.check.line(item.line)}</span>
               </li>
             ))}
           </ul>

@@ -10,12 +10,14 @@ import type { Studio, StudioState } from './studio'
 
 const ORDER = { error: 0, warning: 1, info: 2, hint: 3 }
 
-export const counted = (state: StudioState): number => {
-  let count = 0
-  for (const [uri, faults] of state.faults)
-    if (state.files.some((file) => file.uri === uri)) count += faults.filter((fault) => fault.severity === 'error' || fault.severity === 'warning').length
-  return count
-}
+// How many faults there are to mend.
+export const counted = (state: StudioState): number => ofFiles(state).length
+
+// Whether all of them are warnings.
+export const areWarnings = (state: StudioState): boolean => ofFiles(state).every(({ severity }) => severity === 'warning')
+
+const ofFiles = ({ faults, files }: StudioState): Fault[] =>
+  files.flatMap(({ uri }) => (faults.get(uri) ?? []).filter(({ severity }) => severity === 'error' || severity === 'warning'))
 
 export function Problems({ studio }: { studio: Studio }): ReactNode {
   const faults = useStore(studio.store, (state) => state.faults)

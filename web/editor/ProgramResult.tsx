@@ -5,6 +5,7 @@
 import { type ReactNode } from 'react'
 
 import type { State } from '../diagram/light'
+import { besideOf } from '../diagram/outcome'
 import type { Followed } from '../diagram/protocol'
 import { words } from '../words'
 import { Icon } from './icons'
@@ -37,13 +38,18 @@ export const PROGRAM_LINES = ['stage', 'followed', 'conformance']
 // What a job wrote since its last stage: of a program that runs not what its compiler said.
 export const latest = (job: Job): Job['lines'] => job.lines.slice(job.lines.findLastIndex((line) => typeof line === 'object' && line['type'] === 'stage') + 1)
 
+function toneOf(verdict: Conformance | null): [tone: string, icon: string] {
+  if (verdict?.verdict === 'parts') return ['bad', 'cross']
+  if (verdict?.verdict !== 'conforms') return ['unknown', 'question']
+  return besideOf(verdict.words) === null ? ['good', 'check'] : ['unknown', 'warning']
+}
+
 export function ProgramResult({ job }: { job: Job }): ReactNode {
   const stage = stageOf(job)
   const verdict = job.running || job.code === null ? null : ofType<Conformance>(job, 'conformance')
-  const tone = verdict?.verdict === 'conforms' ? 'good' : verdict?.verdict === 'parts' ? 'bad' : 'unknown'
+  const [tone, icon] = toneOf(verdict)
   // What a run that conforms has all the same, line by line, is not as good as its verdict: it stands below, in no colour.
   const [said, ...beside] = verdict?.verdict === 'conforms' ? verdict.words.split('\n') : [verdict?.words]
-  const icon = verdict?.verdict === 'conforms' ? 'check' : verdict?.verdict === 'parts' ? 'cross' : 'question'
   return (
     <section className="program" aria-label={words.jobs.program}>
       {job.running && stage !== null && <p className="faint-note doing">{words.program.stages[stage] ?? stage}</p>}

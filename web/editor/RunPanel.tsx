@@ -2,13 +2,14 @@
 //
 // In: the runner's store. Out: its methods. It computes nothing of the model.
 
-import { type FormEvent, type ReactNode, useMemo, useState } from 'react'
+import { type FormEvent, type ReactNode, useCallback, useMemo, useState, useSyncExternalStore } from 'react'
 
 import { rows, stateOf } from '../diagram/light'
 import type { File, SessionState } from '../diagram/protocol'
 import { words } from '../words'
 import { Icon } from './icons'
-import type { Runner, RunState } from './run'
+import { buildFirst, lastName, runOf, withModel } from './ofChart'
+import type { RecordedInputs, Runner, RunState } from './run'
 import { Script } from './Script'
 import { AskedNumber, RecordedStart, SLIDES, Slider, slides } from './inputs'
 import { useStore } from './store'
@@ -24,16 +25,6 @@ export function runnable(studio: Studio, uri: string | null): { file: File | nul
   return model ? { file: model, missing: null } : { file: null, missing: file.path.replace(/\.chart$/, '.asm') }
 }
 
-export async function buildAndRun(studio: Studio, uri: string): Promise<void> {
-  const chart = studio.file(uri)
-  if (!chart) return
-  const done = await studio.jobs.run('build', chart)
-  if (!done || done.code !== 0) return
-  await studio.look()
-  const model = studio.sibling(chart, 'asm')
-  if (model) await studio.runner.open(model)
-}
-
 // Whether what is in front is what runs; another file that could run means a new run.
 export function runsInFront(studio: Studio): boolean {
   const { session, file } = studio.runner.store.get()
@@ -41,10 +32,12 @@ export function runsInFront(studio: Studio): boolean {
   return session !== null && (front.file === null ? front.missing === null : front.file.uri === file?.uri)
 }
 
-export async function startRun(studio: Studio, seed: number | null = null): Promise<void> {
+export async function startRun(studio: Studio, seed: number | null = null, recorded: RecordedInputs | null = null): Promise<void> {
   const { active } = studio.store.get()
   const { file, missing } = runnable(studio, active)
-  if (file) await studio.runner.open(file, seed)
+  const front = active === null ? undefined : studio.file(active)
+  if (file && front?.kind === 'chart') await withModel(studio, runOf(studio, front, seed, recorded))
+  else if (file) await studio.runner.open(file, seed, recorded)
   else if (missing !== null && active !== null) studio.store.set({ panel: 'run' })
   else studio.tell(words.run.notRunnable, 'refused')
 }
@@ -59,6 +52,7 @@ export function RunPanel({ studio }: { studio: Studio }): ReactNode {
 
 function Start({ studio, active, busy }: { studio: Studio; active: string | null; busy: boolean }): ReactNode {
   const { file, missing } = runnable(studio, active)
+  const front = active === null ? undefined : studio.file(active)
   return (
     <div className="panel-empty tall">
       <h3>{words.run.none}</h3>
@@ -70,14 +64,14 @@ function Start({ studio, active, busy }: { studio: Studio; active: string | null
             {words.run.startModel(file.path.split('/').at(-1) ?? file.path)}
           </button>
         )}
-        {file?.kind === 'model' && <RecordedStart studio={studio} file={file} busy={busy} />}
+        {file?.kind === 'model' && <RecordedStart studio={studio} file={file} busy={busy} begin={(inputs) => void startRun(studio, null, inputs)} />}
         {file?.kind === 'model' && !studio.hello.readOnly && (
           <button disabled={busy} onClick={() => void startRun(studio, 1)}>
             {words.run.random}
           </button>
         )}
-        {missing !== null && active !== null && (
-          <button className="primary" disabled={busy} onClick={() => void buildAndRun(studio, active)}>
+        {missing !== null && front && (
+          <button className="primary" disabled={busy} onClick={() => void buildFirst(studio, runOf(studio, front))}>
             <Icon name="hammer" />
             {words.run.build}
           </button>
@@ -87,8 +81,18 @@ function Start({ studio, active, busy }: { studio: Studio; active: string | null
   )
 }
 
+// Whether the chart is another one than when the run of its model began.
+function useChartChanged(studio: Studio, run: RunState): boolean {
+  const chart = studio.doc(run.of?.chart.uri ?? null)
+  const subscribe = useCallback((told: () => void) => chart?.store.subscribe(told) ?? (() => undefined), [chart])
+  const text = useSyncExternalStore(subscribe, () => chart?.store.get().sync.text ?? null)
+  const begun = run.of?.text ?? null
+  return begun !== null && text !== null && text !== begun
+}
+
 function Running({ studio, run, session, file }: { studio: Studio; run: RunState; session: SessionState; file: File }): ReactNode {
   const { runner } = studio
+  const chartChanged = useChartChanged(studio, run)
   return (
     <div className="run">
       <div className="run-control">
@@ -97,14 +101,15 @@ function Running({ studio, run, session, file }: { studio: Studio; run: RunState
           <button className="link-button" onClick={() => void studio.open(file.uri)}>
             {file.path.split('/').at(-1)}
           </button>
+          {run.of?.isOlder && <span className="outcome unknown">{words.older.model}</span>}
           <span className="run-step">{words.run.stepNumber(session.step)}</span>
           <span className={`run-wait ${session.waiting}`}>
             {session.waiting === 'nothing' && session.word ? session.word : words.run.waits[session.waiting]}
           </span>
         </p>
-        {session.stale && (
+        {(session.stale || chartChanged) && (
           <p className="note warning">
-            {words.run.stale}{' '}
+            {session.stale ? words.run.stale : words.run.chartStale(lastName(run.of?.chart.path ?? ''))}{' '}
             <button className="link-button" onClick={() => void runner.restart()}>
               {words.run.again}
             </button>

@@ -13,7 +13,7 @@ import { Annotation, ChangeSet, type ChangeSpec, EditorState, Transaction } from
 import { EditorView, crosshairCursor, drawSelection, dropCursor, highlightActiveLine, highlightActiveLineGutter, keymap, lineNumbers, rectangularSelection } from '@codemirror/view'
 
 import type { File, Position, Range } from '../diagram/protocol'
-import { type Effect, type Sync, type SyncEvent, opened, turn } from '../diagram/sync'
+import { type Effect, type Sync, type SyncEvent, opened, turn, writeAfter } from '../diagram/sync'
 import type { Written } from '../diagram/protocol'
 import { words } from '../words'
 import { coloured, languageId } from './language'
@@ -21,8 +21,6 @@ import { type Mark, marks, setPicked, setRan } from './picked'
 import { Store } from './store'
 import type { Studio } from './studio'
 import { editorTheme } from './theme'
-
-const SAVE_DELAY_MS = 300
 
 // A change that did not come from the user's hands in the text.
 const FromOutside = Annotation.define<true>()
@@ -38,6 +36,10 @@ export class Doc {
   readonly store: Store<DocState>
   readonly view: EditorView
   private timer: ReturnType<typeof setTimeout> | undefined
+  // Since when a write waits.
+  private waits: number | null = null
+  // While a conflict is decided: the text as it is being put together.
+  mine: string | null = null
   // What was changed since a group began.
   private group: ChangeSet | null = null
   // Called after each change of the text, and when the cursor is moved by hand.
@@ -217,9 +219,8 @@ export class Doc {
     if (!plugin) return
     const length = plugin.syncedDoc.length
     const at = (position: Position): number => {
-      const lines = plugin.syncedDoc.lines
-      const offset = position.line >= lines ? length : Math.min(plugin.syncedDoc.line(position.line + 1).from + position.character, length)
-      return plugin.unsyncedChanges.mapPos(offset)
+      const line = position.line >= plugin.syncedDoc.lines ? null : plugin.syncedDoc.line(position.line + 1)
+      return plugin.unsyncedChanges.mapPos(line ? Math.min(line.from + position.character, line.to) : length)
     }
     const diagnostics = faults.map((fault): Diagnostic => {
       const from = at(fault.range.start)
@@ -243,7 +244,8 @@ export class Doc {
     switch (effect.kind) {
       case 'schedule':
         clearTimeout(this.timer)
-        this.timer = setTimeout(() => this.event({ kind: 'due' }), SAVE_DELAY_MS)
+        this.waits ??= performance.now()
+        this.timer = setTimeout(() => this.event({ kind: 'due' }), writeAfter(performance.now() - this.waits))
         return
       case 'apply':
         this.view.dispatch({
@@ -252,6 +254,7 @@ export class Doc {
         })
         return
       case 'write':
+        this.waits = null
         void this.write(effect.text, effect.base)
         return
       case 'read':
@@ -290,6 +293,12 @@ export class Doc {
       await new Promise((resolve) => setTimeout(resolve, 20))
       this.event({ kind: 'due' })
     }
+  }
+
+  // Sends what is not written yet, as far as it can be: the page may be gone in a moment.
+  flush(): void {
+    clearTimeout(this.timer)
+    this.event({ kind: 'due' })
   }
 
   destroy(): void {

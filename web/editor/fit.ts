@@ -9,7 +9,7 @@ import type { Chart } from './chart'
 
 const ROOM = { left: '68px', right: '36px', top: '28px', bottom: '60px' } as const
 const LARGEST = 1.2
-const SMALLEST = 0.3
+const SMALLEST = 0.1
 
 export function useFit(chart: Chart): (duration?: number) => void {
   const flow = useReactFlow()

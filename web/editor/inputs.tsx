@@ -6,6 +6,7 @@ import { type ReactNode, useEffect, useRef, useState } from 'react'
 
 import type { File } from '../diagram/protocol'
 import { words } from '../words'
+import type { RecordedInputs } from './run'
 import type { Studio } from './studio'
 
 // With fewer values, a button for each is quicker.
@@ -80,7 +81,7 @@ export function AskedNumber({ location, bounds, give }: { location: string; boun
 }
 
 // A run that takes its inputs from a file beside the model.
-export function RecordedStart({ studio, file, busy }: { studio: Studio; file: File; busy: boolean }): ReactNode {
+export function RecordedStart({ studio, file, busy, begin }: { studio: Studio; file: File; busy: boolean; begin: (inputs: RecordedInputs) => void }): ReactNode {
   const [files, setFiles] = useState<string[]>([])
   const [chosen, setChosen] = useState('')
   useEffect(() => {
@@ -99,7 +100,7 @@ export function RecordedStart({ studio, file, busy }: { studio: Studio; file: Fi
   const name = (path: string): string => path.split('/').at(-1) ?? path
   const start = async (): Promise<void> => {
     const inputs = await studio.runner.inputs(wanted)
-    if (inputs) await studio.runner.open(file, null, inputs)
+    if (inputs) begin(inputs)
   }
   return (
     <span className="row">

@@ -3,9 +3,12 @@
 // Owns: the list of jobs, newest first, and what their lines say: verdicts with counterexamples, results of scenarios, faults.
 // In: `studio/line` and `studio/done`. Out: a store.
 
-import type { File, Followed, JobKind } from '../diagram/protocol'
+import type { Looked } from '../diagram/currency'
 import type { RunStep } from '../diagram/light'
+import { type Loads, type Outcome, outcomeOf } from '../diagram/outcome'
 import type { Fault } from '../diagram/pick'
+import type { File, Followed, JobKind } from '../diagram/protocol'
+import { words } from '../words'
 import { Store } from './store'
 import type { Studio } from './studio'
 
@@ -21,6 +24,8 @@ export interface Verdict {
   again_from?: number
   // The counterexample as a scenario beside the model.
   scenario?: string
+  // What a counterexample lacks here because it is too long.
+  omitted?: { trace?: { after: number; steps: number }; scenario?: true }
 }
 
 // Lines and columns from 1, as the command line counts.
@@ -44,6 +49,23 @@ export interface Job {
   progress: string | null
   // What a program that runs does now.
   followed: Followed | null
+  // The texts that it looks at, as they were when it began.
+  texts: Looked[]
+  // The chart in front when it was started, if the job is of its model; and whether that is known not to be the chart's.
+  chart: File | null
+  isOlder: boolean
+  // The model that each scenario of a test loads.
+  loads: Loads[]
+  // Where C++ is written.
+  folder: string | null
+}
+
+// What the server answers when a job begins; an exported project tells its number alone.
+interface Begun {
+  job: number
+  texts?: { path: string; hash: string | null }[]
+  loads?: Loads[]
+  folder?: string | null
 }
 
 export interface JobsState {
@@ -65,29 +87,56 @@ export interface JobOptions {
   coverage?: boolean
 }
 
-// LIMIT: of a job with endless output, the last lines are kept.
+// LIMIT: of a job with endless output, the last lines are kept, and what it found.
 const KEPT = 5000
+
+function kept(lines: Job['lines']): Job['lines'] {
+  if (lines.length <= KEPT) return lines
+  const first = Math.max(0, lines.findIndex((line) => typeof line === 'string'))
+  return lines.filter((_, index) => index !== first)
+}
 
 export class Jobs {
   readonly store = new Store<JobsState>({ jobs: [], shown: null, playing: null, picked: null })
   private early = new Map<number, (string | Record<string, unknown>)[]>()
   private ended = new Map<number, number | null>()
 
+  // How many jobs ended with a connection.
+  private past = 0
+
   constructor(private readonly studio: Studio) {
     studio.server.on<{ job: number; line: string | Record<string, unknown> }>('studio/line', ({ job, line }) => this.line(job, line))
     studio.server.on<{ job: number; code: number | null }>('studio/done', ({ job, code }) => this.done(job, code))
   }
 
-  async start(job: JobKind, file: File, options: JobOptions = job === 'test' ? { coverage: true } : {}): Promise<void> {
+  // Of the model of a chart, the chart is named, too.
+  async start(job: JobKind, file: File, options: JobOptions = job === 'test' ? { coverage: true } : {}, of: { chart: File; isOlder: boolean } | null = null): Promise<void> {
     await this.studio.saveAll()
     try {
-      const params = { job, path: file.path, options }
-      const { job: id } = await this.studio.server.request<{ job: number }>('studio/job', params)
+      const params = { job, path: file.path, options, ...(of === null ? {} : { chart: of.chart.path }) }
+      const begun = await this.studio.server.request<Begun>('studio/job', params)
+      const { job: id } = begun
       const lines = this.early.get(id) ?? []
       this.early.delete(id)
       const code = this.ended.get(id)
       this.ended.delete(id)
-      const fresh: Job = { id, job, file, running: code === undefined, code: code ?? null, began: Date.now(), lines, progress: null, followed: null, options }
+      const fresh: Job = {
+        id,
+        job,
+        file,
+        running: code === undefined,
+        code: code ?? null,
+        began: Date.now(),
+        lines,
+        progress: null,
+        followed: null,
+        options,
+        texts: this.studio.currency.looked(begun.texts ?? []),
+        chart: of?.chart ?? null,
+        isOlder: of?.isOlder ?? false,
+        loads: begun.loads ?? [],
+        folder: begun.folder ?? null,
+      }
       this.store.set((state) => ({ jobs: [fresh, ...state.jobs].slice(0, 30), shown: id, playing: null, picked: null }))
       this.studio.store.set({ panel: job === 'graph' ? 'graph' : 'check' })
       if (code !== undefined) this.after(fresh)
@@ -116,7 +165,7 @@ export class Jobs {
     }
     const progress = typeof line === 'object' && line['type'] === 'progress' ? told(line) : null
     if (typeof line === 'object' && line['type'] === 'followed') return void this.update(id, () => ({ followed: line as unknown as Followed }))
-    this.update(id, (job) => (progress === null ? { lines: [...job.lines, line].slice(-KEPT) } : { progress }))
+    this.update(id, (job) => (progress === null ? { lines: kept([...job.lines, line]) } : { progress }))
   }
 
   private done(id: number, code: number | null): void {
@@ -162,7 +211,7 @@ export class Jobs {
       const start = { line: fault.line - 1, character: fault.column - 1 }
       const end = { line: (fault.end_line ?? fault.line) - 1, character: (fault.end_column ?? fault.column) - 1 }
       const severity = fault.severity === 'warning' || fault.severity === 'note' ? 'warning' : 'error'
-      const message = fault.help ? `${fault.message}\nhelp: ${fault.help}` : fault.message
+      const message = fault.help ? `${fault.message}\n${words.check.help(fault.help)}` : fault.message
       out.set(file.uri, [...(out.get(file.uri) ?? []), { uri: file.uri, range: { start, end }, severity, message, code: fault.id }])
     }
     return out
@@ -206,8 +255,21 @@ export class Jobs {
     this.store.set({ playing: null })
   }
 
+  // What runs ends with the connection. A studio that was started anew counts from 1 again: what is known gets numbers below.
   lost(): void {
-    this.store.set((state) => ({ jobs: state.jobs.map((job) => (job.running ? { ...job, running: false, code: null } : job)) }))
+    const open = this.store.get().jobs.filter(({ id }) => id > 0)
+    const below = new Map(open.map(({ id }, index) => [id, -(this.past + index + 1)]))
+    this.past += open.length
+    const before = (id: number): number => below.get(id) ?? id
+    this.store.set(({ jobs, shown, playing, picked }) => ({
+      jobs: jobs.map((job) => ({ ...job, id: before(job.id), ...(job.running ? { running: false, code: null } : {}) })),
+      shown: shown === null ? null : before(shown),
+      playing: playing && { ...playing, job: before(playing.job) },
+      picked: picked && { ...picked, job: before(picked.job) },
+    }))
+    this.early.clear()
+    this.ended.clear()
+    this.waiting.clear()
   }
 }
 
@@ -292,6 +354,13 @@ const isFault = (line: unknown): line is ToldFault =>
 export const scenarios = (job: Job): ScenarioResult[] =>
   job.lines.filter((line) => typeof line === 'object' && line['type'] === 'scenario') as unknown as ScenarioResult[]
 
-export const faultLines = (job: Job): ToldFault[] => (job.lines as unknown[]).filter(isFault)
+// The faults that a job told: what several of its commands tell alike, once.
+export function faultLines(job: Job): ToldFault[] {
+  const told = (job.lines as unknown[]).filter(isFault)
+  const key = ({ id, file, line, column, message }: ToldFault): string => [id, file, line, column, message].join('\n')
+  return [...new Map(told.map((fault) => [key(fault), fault])).values()]
+}
+
+export const outcome = (job: Job): Outcome => outcomeOf({ ...job, path: job.file.path })
 
 const faultsOf = (job: Job): ToldFault[] => [...faultLines(job), ...scenarios(job).flatMap((scenario) => scenario.faults.filter(isFault))]

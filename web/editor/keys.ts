@@ -54,7 +54,7 @@ export async function paste(studio: Studio, chart: Chart, at: Point | null): Pro
   } catch {
     // As above.
   }
-  const operation = text === null ? null : pasted(text, at)
+  const operation = text === null ? null : pasted(text, at, chart.drawing)
   if (operation) await chart.operate(operation)
   else studio.tell(words.canvas.nothingToPaste, 'refused')
 }
@@ -68,7 +68,7 @@ export function deleteSelected(chart: Chart): void {
 export function duplicate(chart: Chart): void {
   const drawing = chart.drawing
   const text = drawing && copied(drawing, chart.store.get().selection.boxes)
-  const operation = text ? pasted(text, null) : null
+  const operation = text ? pasted(text, null, drawing) : null
   if (operation && !chart.doc.readOnly) void chart.operate(operation)
 }
 

@@ -71,6 +71,11 @@ interface Found {
 
 const before = (a: Position, b: Position): boolean => a.line < b.line || (a.line === b.line && a.character <= b.character)
 
+const UNCOVERED = 'uncovered'
+
+// Of a rule that is marked as a whole, what is in it would look as if it were not covered either: its first line stands for it.
+const headOf = ({ start, end }: Range): Range => ({ start, end: end.line === start.line ? end : { line: start.line, character: Infinity } })
+
 // A rule that never ran at all.
 const WHOLE = 'the whole'
 
@@ -99,7 +104,9 @@ export class Marks {
   // What a job found, by the files that it is in.
   texts(job: Job): Map<string, Fault[]> {
     const out = new Map<string, Fault[]>()
-    for (const [uri, found] of this.found(job)) out.set(uri, found.map(({ range, message, severity, code }) => ({ uri, range, message, severity, code })))
+    for (const [uri, found] of this.found(job)) {
+      out.set(uri, found.map(({ range, message, severity, code }) => ({ uri, range: code === UNCOVERED ? headOf(range) : range, message, severity, code })))
+    }
     return out
   }
 
@@ -109,9 +116,9 @@ export class Marks {
       const file = this.studio.named(place.file)
       if (file) out.set(file.uri, [...(out.get(file.uri) ?? []), { range: rangeOf(place), message, severity, code, what, rule }])
     }
-    for (const { finding } of findings(job)) note(finding, finding.help ? `${finding.message}\nhelp: ${finding.help}` : finding.message, 'warning', finding.id)
+    for (const { finding } of findings(job)) note(finding, finding.help ? `${finding.message}\n${words.check.help(finding.help)}` : finding.message, 'warning', finding.id)
     for (const mutant of mutants(job)) if (mutant.outcome === 'survived') note(mutant, mutantTold(mutant), 'warning', mutant.operator)
-    for (const { uncovered } of coverages(job)) for (const item of uncovered) note(item, words.marks.uncovered(item.what, item.rule), 'info', 'uncovered', item.what, item.rule)
+    for (const { uncovered } of coverages(job)) for (const item of uncovered) note(item, words.marks.uncovered(item.what, item.rule), 'info', UNCOVERED, item.what, item.rule)
     return out
   }
 
@@ -130,14 +137,14 @@ export class Marks {
       // What a job said of another text is said of no shape.
       if (!model || !chart || !drawings || (this.changed.get(model.uri) ?? 0) >= job.began) continue
       const items = found.get(model.uri) ?? []
-      const told = items.filter(({ code }) => code !== 'uncovered')
+      const told = items.filter(({ code }) => code !== UNCOVERED)
       const shapes = await this.speaking(model, chart, told.map(({ range }) => range.start))
       const faults = told.flatMap((one, index): Fault[] => {
         const range = this.onChart(drawings, shapes[index]?.shapes ?? null)
         return range ? [{ uri: chart.uri, range, message: one.message, severity: one.severity, code: one.code }] : []
       })
       if (faults.length > 0) out.set(chart.uri, faults)
-      if (covers.includes(model.uri)) of.set(chart.uri, await this.coverage(model, chart, drawings, items.filter(({ code }) => code === 'uncovered')))
+      if (covers.includes(model.uri)) of.set(chart.uri, await this.coverage(model, chart, drawings, items.filter(({ code }) => code === UNCOVERED)))
     }
     if (job.job === 'test') this.covered.set({ of })
     return out

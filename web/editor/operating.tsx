@@ -9,14 +9,14 @@ import type { Chart } from './chart'
 
 export interface Acting {
   refused: ReadonlyMap<string, string>
-  act: (key: string, operation: Operation) => Promise<boolean>
+  act: (key: string, operation: Operation, options?: { select: boolean }) => Promise<boolean>
 }
 
 export function useOperation({ chart }: { chart: Chart }): Acting {
   const [refused, setRefused] = useState<ReadonlyMap<string, string>>(new Map())
-  const act = async (key: string, operation: Operation): Promise<boolean> => {
+  const act = async (key: string, operation: Operation, { select } = { select: false }): Promise<boolean> => {
     setRefused(new Map())
-    const done = await chart.operate(operation, { select: false, refused: (reason) => setRefused(new Map([[key, reason]])) })
+    const done = await chart.operate(operation, { select, refused: (reason) => setRefused(new Map([[key, reason]])) })
     return done !== null
   }
   return { refused, act }

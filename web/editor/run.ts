@@ -7,6 +7,7 @@ import { freeName } from '../diagram/record'
 import { closedTerm, controlOf, isControl, stateOf } from '../diagram/light'
 import type { Drawing, File, SessionState } from '../diagram/protocol'
 import { words } from '../words'
+import { runOf, withModel } from './ofChart'
 import { Store } from './store'
 import type { Studio } from './studio'
 
@@ -27,10 +28,18 @@ export interface RunState {
   seed: number | null
   // A file of inputs that the run takes.
   recorded: RecordedInputs | null
+  // The chart in front when the run of its model began, its text then, and whether the model is known not to be the chart's.
+  of: RunOf | null
   // The scenario that is played, if it is in no file.
   script: string | null
   // What the server calls that text.
   scriptUri: string
+}
+
+export interface RunOf {
+  chart: File
+  text: string | null
+  isOlder: boolean
 }
 
 export interface RecordedInputs {
@@ -50,6 +59,7 @@ const NONE: RunState = {
   values: new Map(),
   seed: null,
   recorded: null,
+  of: null,
   script: null,
   scriptUri: '',
 }
@@ -65,9 +75,9 @@ export class Runner {
   constructor(private readonly studio: Studio) {}
 
   // Begins a run of a model or a scenario.
-  async open(file: File, seed: number | null = null, recorded: RecordedInputs | null = null, script: string | null = null): Promise<void> {
+  async open(file: File, seed: number | null = null, recorded: RecordedInputs | null = null, script: string | null = null, of: RunOf | null = null): Promise<void> {
     await this.close()
-    this.store.set({ busy: true, file, seed, recorded, script })
+    this.store.set({ busy: true, file, seed, recorded, script, of })
     this.studio.store.set({ panel: 'run' })
     this.studio.besideModel(file.uri)
     try {
@@ -87,12 +97,6 @@ export class Runner {
     } finally {
       this.store.set({ busy: false })
     }
-  }
-
-  // Plays the text of a scenario that is in no file, on this model.
-  async openScript(model: File, script: string): Promise<void> {
-    this.studio.jobs.leave()
-    await this.open(model, null, null, script)
   }
 
   // What an input may be, as it was offered when it was asked for.
@@ -233,10 +237,13 @@ export class Runner {
   }
 
   async restart(): Promise<void> {
-    const { file, seed, recorded, script } = this.store.get()
+    const { file, session, seed, recorded, script, of } = this.store.get()
     // A file of inputs may be another by now.
-    const inputs = recorded && (await this.inputs(recorded.name))
-    if (file) await this.open(file, seed, inputs ?? recorded, script)
+    const inputs = (recorded && (await this.inputs(recorded.name))) ?? recorded
+    // Of the same texts it is decided which model is meant.
+    const isSame = of !== null && this.studio.doc(of.chart.uri)?.text === of.text && session?.stale === false
+    if (of && !isSame) await withModel(this.studio, runOf(this.studio, of.chart, seed, inputs, script))
+    else if (file) await this.open(file, seed, inputs, script, of)
   }
 
   // The text of a file of inputs.

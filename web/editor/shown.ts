@@ -44,7 +44,7 @@ export function useFrame(studio: Studio) {
     const verdict = job && verdicts(job).find((verdict) => verdict.check === playing.check)
     const all = frames(verdict?.trace ?? [])
     const frame = all[Math.min(playing.at, all.length - 1)]
-    return frame && verdict ? { frame, count: all.length, verdict, playing } : null
+    return frame && verdict ? { frame, count: all.length, end: all.at(-1)?.step ?? 0, verdict, playing } : null
   }, [jobs, playing])
 }
 

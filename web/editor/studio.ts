@@ -8,18 +8,22 @@ import type { Text, TransactionSpec } from '@codemirror/state'
 import type { EditorView } from '@codemirror/view'
 import { LSPPlugin } from '@codemirror/lsp-client'
 
-import type { Fault, Severity } from '../diagram/pick'
+import { type Fault, type Severity, isSame } from '../diagram/pick'
 import type { Changed, File, Hello, Place, Range, TextEdit } from '../diagram/protocol'
+import { isAtRisk, isDirty, status } from '../diagram/sync'
 import { changesOf } from '../diagram/text'
 import { words } from '../words'
 import { Chart } from './chart'
+import { Currency } from './currency'
 import { Doc } from './document'
 import { Jobs } from './jobs'
 import { Marks } from './marks'
+import type { OfChart } from './ofChart'
+import { Rescue } from './rescue'
 import { Runner } from './run'
 import { sanitized } from './sanitize'
 import { quiet } from './quiet'
-import type { Server, Transport } from './server'
+import { type Online, type Server, type Transport, isLost } from './server'
 import { Store } from './store'
 
 export type Layout = 'both' | 'picture' | 'text'
@@ -30,6 +34,10 @@ export type Dialog =
   | { kind: 'keys' }
   | { kind: 'rename'; old: string; uri: string; at: { line: number; character: number } }
   | { kind: 'machine'; uri: string }
+  // A text that is in no file is to be closed.
+  | { kind: 'closing'; uri: string }
+  // The model of a chart is not the one that it would be built to.
+  | { kind: 'older'; asked: OfChart; model: File; state: 'differs' | 'faulty' | 'unknown' }
 
 export interface Notice {
   text: string
@@ -38,12 +46,14 @@ export interface Notice {
 }
 
 export interface StudioState {
-  online: 'connecting' | 'open' | 'closed'
+  online: Online
   hello: Hello | null
   files: File[]
   tabs: string[]
   active: string | null
   layout: Layout
+  // There is room for one pane alone.
+  narrow: boolean
   panel: Panel | null
   // The results need more room than the panel has.
   tall: boolean
@@ -57,6 +67,9 @@ export interface StudioState {
   // Counts documents that were opened, so that views look again.
   opened: number
 }
+
+// Where there is no room for both, the picture comes first.
+export const layoutShown = ({ layout, narrow }: StudioState): Layout => (narrow && layout === 'both' ? 'picture' : layout)
 
 interface Published {
   uri: string
@@ -136,6 +149,7 @@ export class Studio {
     tabs: [],
     active: null,
     layout: 'both',
+    narrow: false,
     panel: null,
     tall: false,
     beside: 'chart',
@@ -149,6 +163,8 @@ export class Studio {
   readonly runner: Runner
   readonly jobs: Jobs
   readonly marks: Marks
+  readonly currency: Currency
+  readonly rescue: Rescue
   private readonly docs = new Map<string, Doc>()
   private readonly charts = new Map<string, Chart>()
   private readonly opening = new Map<string, Promise<Doc | null>>()
@@ -177,6 +193,8 @@ export class Studio {
     this.runner = new Runner(this)
     this.jobs = new Jobs(this)
     this.marks = new Marks(this)
+    this.currency = new Currency(this)
+    this.rescue = new Rescue(this)
     this.store.set({ online: server.online, hello, files: hello.files })
     this.transport = quiet(server.transport)
     this.client.connect(this.transport)
@@ -204,17 +222,19 @@ export class Studio {
 
   // The language session. Of one that never begins, because the connection breaks before, nothing is heard: whoever waits is told.
   private begun(): Promise<unknown> {
-    if (this.server.online !== 'open') return Promise.reject(new Error('connection lost'))
+    if (this.server.online !== 'open') return Promise.reject(new Error(words.shell.connectionLost))
     return new Promise((done, failed) => {
-      const lost = (): void => failed(new Error('connection lost'))
+      const lost = (): void => failed(new Error(words.shell.connectionLost))
       this.beginning.add(lost)
       this.client.initializing.then(done, failed).finally(() => this.beginning.delete(lost))
     })
   }
 
-  private connection(online: StudioState['online']): void {
+  private connection(online: Online): void {
+    const before = this.store.get().online
     this.store.set({ online })
-    if (online === 'closed') {
+    // Why there is none may be known only later.
+    if (isLost(online) && !isLost(before)) {
       for (const doc of this.docs.values()) doc.event({ kind: 'offline' })
       this.client.disconnect()
       for (const lost of this.beginning) lost()
@@ -234,6 +254,7 @@ export class Studio {
     this.store.set({ hello, files: hello.files })
     for (const doc of this.docs.values()) doc.event({ kind: 'online' })
     for (const chart of this.charts.values()) chart.refresh()
+    await this.currency.again()
   }
 
   private changedOutside({ path, hash, text }: Changed): void {
@@ -273,7 +294,8 @@ export class Studio {
   }
 
   private merge(uri: string): void {
-    const faults = [...(this.told.get(uri) ?? []), ...(this.found.get(uri) ?? [])]
+    const told = this.told.get(uri) ?? []
+    const faults = [...told, ...(this.found.get(uri) ?? []).filter((fault) => !told.some((other) => isSame(other, fault)))]
     const all = new Map(this.store.get().faults)
     if (faults.length > 0) all.set(uri, faults)
     else all.delete(uri)
@@ -348,6 +370,11 @@ export class Studio {
         if (this.found.delete(uri)) this.merge(uri)
         this.marks.drop(uri)
       })
+      doc.store.subscribe(() => this.currency.later())
+      if (!readOnly) {
+        this.rescue.watch(doc)
+        this.rescue.restore(doc)
+      }
       if (file.kind === 'chart') this.charts.set(uri, new Chart(this, doc))
       const faults = this.store.get().faults.get(uri)
       if (faults) doc.diagnose(faults)
@@ -372,7 +399,7 @@ export class Studio {
     if (where.drawing !== undefined) this.chart(uri)?.turnTo(where.drawing)
     const { range } = where
     if (range) {
-      if (this.store.get().layout === 'picture') this.store.set({ layout: 'both' })
+      if (layoutShown(this.store.get()) === 'picture') this.store.set({ layout: this.store.get().narrow ? 'text' : 'both' })
       requestAnimationFrame(() => doc.reveal(range, where.focus ?? true))
     }
     return doc
@@ -394,22 +421,57 @@ export class Studio {
     this.store.set({ trail: trail.slice(0, index) })
   }
 
+  // Closes a file; one whose text is in no file only if the user says so.
   close(uri: string): void {
-    const { tabs, active } = this.store.get()
-    const index = tabs.indexOf(uri)
-    const left = tabs.filter((tab) => tab !== uri)
-    this.store.set({ tabs: left, ...(active === uri ? { active: left[Math.min(index, left.length - 1)] ?? null } : {}) })
+    const sync = this.docs.get(uri)?.store.get().sync
+    const now = sync && status(sync)
+    if (now === 'conflict' || now === 'gone' || now === 'failed' || (now === 'offline' && sync && isDirty(sync))) {
+      return this.store.set({ dialog: { kind: 'closing', uri } })
+    }
+    this.closeTab(uri)
     const doc = this.docs.get(uri)
     if (!doc) return
     void doc.saved().then(() => {
       // It may have been opened again, or stand beside a chart.
       const { sync } = doc.store.get()
-      if (this.store.get().tabs.includes(uri) || sync.conflict || sync.text !== sync.baseText) return
-      this.docs.delete(uri)
-      this.charts.delete(uri)
-      doc.destroy()
-      this.store.set((state) => ({ opened: state.opened + 1 }))
+      if (!this.store.get().tabs.includes(uri) && !isAtRisk(sync)) this.forget(doc)
     })
+  }
+
+  // Closes a file whose text is in no file: the text is given up.
+  discard(uri: string): void {
+    this.closeTab(uri)
+    const doc = this.docs.get(uri)
+    if (!doc) return
+    this.forget(doc)
+    this.rescue.drop(doc.file.path)
+  }
+
+  private closeTab(uri: string): void {
+    const { tabs, active } = this.store.get()
+    const index = tabs.indexOf(uri)
+    const left = tabs.filter((tab) => tab !== uri)
+    this.store.set({ tabs: left, ...(active === uri ? { active: left[Math.min(index, left.length - 1)] ?? null } : {}) })
+  }
+
+  private forget(doc: Doc): void {
+    // What its file holds is known for the last time.
+    this.currency.look()
+    const { uri } = doc.file
+    this.docs.delete(uri)
+    this.charts.delete(uri)
+    doc.destroy()
+    this.store.set((state) => ({ opened: state.opened + 1 }))
+  }
+
+  // The page may be gone in a moment: what can be written is, and the rest is kept. Out: whether something could be lost.
+  flush(): boolean {
+    const open = this.openDocs.filter((doc) => !doc.readOnly)
+    for (const doc of open) {
+      this.rescue.now(doc)
+      doc.flush()
+    }
+    return open.some((doc) => isAtRisk(doc.store.get().sync))
   }
 
   // A place in the model of the chart in front is shown beside the picture.
@@ -422,7 +484,8 @@ export class Studio {
 
   // Puts a model's text beside the picture, if it is that of the chart in front.
   besideModel(uri: string): boolean {
-    const { active, layout } = this.store.get()
+    const { active } = this.store.get()
+    const layout = layoutShown(this.store.get())
     const front = active === null ? undefined : this.file(active)
     if (front?.kind !== 'chart' || this.sibling(front, 'asm')?.uri !== uri || layout === 'picture') return false
     this.store.set({ beside: 'model' })

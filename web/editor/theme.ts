@@ -42,11 +42,12 @@ export const editorTheme = EditorView.theme({
   '.cm-lsp-documentation pre, .cm-tooltip pre': { fontFamily: 'var(--mono)', fontSize: '12px', whiteSpace: 'pre-wrap' },
   '.cm-lsp-documentation hr': { border: 'none', borderTop: '1px solid var(--hair)', margin: '6px 0' },
   '.cm-diagnostic': { padding: '5px 10px', borderLeft: '3px solid var(--bad)', fontFamily: 'var(--sans)' },
+  '.cm-diagnosticText': { whiteSpace: 'pre-line' },
   '.cm-diagnostic-warning': { borderLeftColor: 'var(--hold)' },
   '.cm-diagnostic-info, .cm-diagnostic-hint': { borderLeftColor: 'var(--faint)' },
   '.cm-lintRange-error': { backgroundImage: 'none', borderBottom: '2px solid var(--bad)' },
   '.cm-lintRange-warning': { backgroundImage: 'none', borderBottom: '2px solid var(--hold)' },
-  '.cm-lintRange-info, .cm-lintRange-hint': { backgroundImage: 'none', opacity: '0.65' },
+  '.cm-lintRange-info, .cm-lintRange-hint': { backgroundImage: 'none', borderBottom: '2px dotted var(--faint)' },
   '.cm-panels': { backgroundColor: 'var(--wash)', color: 'var(--ink)', borderColor: 'var(--hair)' },
   '.cm-panel.cm-search': { padding: '8px 10px', fontFamily: 'var(--sans)' },
   '.cm-textfield': {

@@ -20,7 +20,7 @@ import {
 
 import { log, program } from "./program";
 import { runJson } from "./pure/process";
-import { counterexample, explored, verdict, type Verdict } from "./pure/results";
+import { counterexample, explored, shownCheck, verdict, type Verdict } from "./pure/results";
 import { reveal } from "./state";
 
 interface Shown extends Verdict {
@@ -45,7 +45,7 @@ class VerificationView implements TreeDataProvider<Shown> {
   }
 
   getTreeItem(shown: Shown): TreeItem {
-    const item = new TreeItem(shown.check);
+    const item = new TreeItem(shownCheck(shown));
     item.description = [shown.verdict, shown.detail].filter(Boolean).join(", ");
     item.iconPath = ICONS[shown.verdict];
     item.contextValue = shown.scenario ? "counterexample" : "verdict";

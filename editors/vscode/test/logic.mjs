@@ -259,6 +259,7 @@ await test("verdicts, and the scenario of the counterexample", async () => {
   const violated = verdicts.filter(({ verdict }) => verdict === "violated");
   assert.deepEqual(violated.map(({ check, detail, at }) => [check, detail, at.line]), [["inv_small", "after 3 steps", 9]]);
   assert.ok(verdicts.filter(({ verdict }) => verdict === "holds").every(({ detail }) => /^in all \d+ states$/.test(detail)));
+  assert.ok(verdicts.map(results.shownCheck).includes("no deadlock"));
   assert.match(all.map(results.explored).find(Boolean), /^all states explored: 9/);
   assert.equal(results.counterexample("inv_small", fs.readdirSync(kept), new Set()), "inv_small.avalla");
 });

@@ -19,7 +19,7 @@ pub struct Arguments {
     /// The project
     #[arg(default_value = ".")]
     folder: PathBuf,
-    /// The port; 0 takes one that is free
+    /// The port; 0 takes one that follows from the folder's path, so that open pages find a new start, or one that is free
     #[arg(long, default_value_t = 0, value_name = "N")]
     port: u16,
     /// Print the address and open no browser

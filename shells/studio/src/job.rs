@@ -1,11 +1,11 @@
 //! What takes long: commands of this program, each a process of its own, for a tab.
 //!
 //! In: which command, on which file. Out: its lines as they come, and its exit code. A process can be stopped whatever it does, and what it
-//! takes too much is its own. The words of a command are made here: a browser names no options. LIMIT: processes at a time, seconds,
-//! lines and bytes of each; what is beyond is told.
+//! takes too much is its own. The words of a command are made here: a browser names no options. LIMIT: processes at a time, seconds
+//! and lines of each; what is beyond is told.
 
 use std::collections::BTreeMap;
-use std::io::{BufRead, BufReader, Read};
+use std::io::{BufReader, Read};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Output, Stdio};
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -17,6 +17,7 @@ use groundstate::Kind;
 use serde_json::{Value, json};
 use tokio::sync::mpsc::Sender;
 
+use crate::line;
 use crate::tell::{Out, notification};
 
 /// LIMIT: processes at a time.
@@ -28,8 +29,6 @@ const LINES: usize = 20_000;
 /// LIMIT: terms of a job, and bytes of each.
 const TERMS: usize = 8;
 const TERM: usize = 10_000;
-/// LIMIT: bytes of a line.
-const LINE: u64 = 4 << 20;
 /// How often it is looked whether a process has ended.
 pub const LOOK: Duration = Duration::from_millis(10);
 /// How long a process may take to end by itself.
@@ -366,32 +365,21 @@ fn end(child: &mut Child, _how: End) {
     _ = child.kill();
 }
 
-/// Sends each line as it comes: an object where it is one, a text else.
+/// Sends each line as it comes.
 fn hand_on(number: u64, from: impl Read, out: &Sender<Out>, left: &AtomicU64) {
-    let mut from = BufReader::new(from);
-    loop {
-        let mut line = Vec::new();
-        match from.by_ref().take(LINE).read_until(b'\n', &mut line) {
-            Ok(0) | Err(_) => return,
-            Ok(_) => {}
-        }
+    let (mut from, mut line) = (BufReader::new(from), Vec::new());
+    while let Some(length) = line::next(&mut from, &mut line) {
         let before = left.fetch_update(Ordering::Relaxed, Ordering::Relaxed, |left| Some(left.saturating_sub(1)));
-        let before = before.unwrap_or_default();
-        if before == 0 {
+        let said = line::said(&line, length);
+        let said = match before.unwrap_or_default() {
             // Read on, so that the process does not wait.
-            continue;
-        }
-        let text = String::from_utf8_lossy(&line);
-        let text = text.trim_end_matches(['\n', '\r']);
-        let said = match before {
-            1 => Value::from(format!("more than {LINES} lines: the rest is not shown")),
-            _ => serde_json::from_str(text).unwrap_or_else(|_| Value::from(text)),
+            0 if !line::is_outcome(&said) => continue,
+            1 if !line::is_outcome(&said) => Value::from(format!("more than {LINES} lines: the rest is not shown")),
+            _ => said,
         };
         let message = notification("studio/line", &json!({ "job": number, "line": said }));
-        if out.blocking_send(message).is_err() {
-            // Nobody listens; the process is stopped by who watches it.
-            continue;
-        }
+        // If nobody listens, the process is stopped by who watches it.
+        _ = out.blocking_send(message);
     }
 }
 

@@ -16,7 +16,7 @@ use crate::home::Home;
 use crate::program::{self, Plan};
 use crate::studio::Studio;
 use crate::tell::Out;
-use crate::{generated, inputs, job};
+use crate::{generated, inputs, job, model, sources};
 
 /// The version of these requests. A change that would mislead a front end raises it.
 const VERSION: u32 = 1;
@@ -88,37 +88,8 @@ pub fn answer(
             writable(studio)?;
             create(studio, text("template")?, text("name")?)
         }
-        "studio/job" => {
-            let (job, path) = (text("job")?, params["path"].as_str().unwrap_or_default());
-            if !path.is_empty() {
-                studio.folder.place(path)?;
-            }
-            if matches!(job, "build" | "generate" | "program") {
-                writable(studio)?;
-            }
-            let home = match job {
-                "generate" | "program" => Some(Home::of(&studio.folder, path)?),
-                _ => None,
-            };
-            home.iter().try_for_each(|home| generated::may_be_written(&studio.folder, home))?;
-            if let ("program", Some(home)) = (job, &home) {
-                let plan = Plan::of(path, home, &params["options"])?;
-                let own = Arc::clone(studio);
-                let work = move |task: &job::Task| program::run(task, &own.folder, &plan);
-                return Ok(json!({ "job": studio.jobs.start_work(tab, out.clone(), work)? }));
-            }
-            let mut words = job::words(job, path, &params["options"])?;
-            words.extend(home.iter().flat_map(Home::words));
-            if job == "test" && Kind::of(Path::new(path)) == Some(Kind::Model) {
-                let scenarios = inputs::scenarios(&studio.folder, path)?;
-                if scenarios.is_empty() {
-                    return Err(format!("there are no scenarios beside {path}"));
-                }
-                job::of_scenarios(&mut words, &scenarios);
-            }
-            let number = studio.jobs.start(tab, &words, out.clone())?;
-            Ok(json!({ "job": number }))
-        }
+        "studio/model" => model::agreement(studio, text("path")?),
+        "studio/job" => start(studio, tab, out, params),
         "studio/stop" => {
             let number = params["job"].as_u64().ok_or("`job` is the number of one")?;
             match studio.jobs.stop(tab, number) {
@@ -128,6 +99,51 @@ pub fn answer(
         }
         _ => Err(format!("{method} is not known")),
     }
+}
+
+/// Starts a job. Out: its number, the texts that it looks at, and of scenarios the models that they load.
+fn start(studio: &Arc<Studio>, tab: u64, out: &Sender<Out>, params: &Value) -> Result<Value, String> {
+    let job = params["job"].as_str().ok_or("`job` is a text")?;
+    let (path, chart) = (params["path"].as_str().unwrap_or_default(), params["chart"].as_str());
+    for path in [path].into_iter().filter(|path| !path.is_empty()).chain(chart) {
+        studio.folder.place(path)?;
+    }
+    if matches!(job, "build" | "generate" | "program") {
+        writable(studio)?;
+    }
+    let home = match job {
+        "generate" | "program" => Some(Home::of(&studio.folder, path)?),
+        _ => None,
+    };
+    home.iter().try_for_each(|home| generated::may_be_written(&studio.folder, home))?;
+    let is_model = Kind::of(Path::new(path)) == Some(Kind::Model);
+    let scenarios = match job {
+        "test" | "mutate" if is_model => inputs::scenarios(&studio.folder, path)?,
+        _ => Vec::new(),
+    };
+    // What they are is known before the job reads them: what is changed meanwhile is told as a change.
+    let begun = |number: u64, texts: Value| {
+        let loads = if job == "test" { sources::loads(&studio.folder, &scenarios) } else { json!([]) };
+        json!({ "job": number, "texts": texts, "loads": loads, "folder": home.as_ref().map(|home| &home.path) })
+    };
+    let texts = || sources::known(studio, &sources::of_job(&studio.folder, job, path, &scenarios, chart));
+    if let ("program", Some(home)) = (job, &home) {
+        let plan = Plan::of(path, home, &params["options"])?;
+        let texts = texts()?;
+        let own = Arc::clone(studio);
+        let work = move |task: &job::Task| program::run(task, &own.folder, &plan);
+        return Ok(begun(studio.jobs.start_work(tab, out.clone(), work)?, texts));
+    }
+    let mut words = job::words(job, path, &params["options"])?;
+    words.extend(home.iter().flat_map(Home::words));
+    if job == "test" && is_model {
+        if scenarios.is_empty() {
+            return Err(format!("there are no scenarios beside {path}"));
+        }
+        job::of_scenarios(&mut words, &scenarios);
+    }
+    let texts = if path.is_empty() { json!([]) } else { texts()? };
+    Ok(begun(studio.jobs.start(tab, &words, out.clone())?, texts))
 }
 
 /// Tells other tabs what a file is now.

@@ -1,13 +1,14 @@
 //! The studio from its start to its end.
 
 use std::net::{Ipv4Addr, SocketAddr};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Duration;
 
 use axum::Router;
 use axum::middleware::from_fn_with_state;
 use axum::routing::get;
+use groundstate::text_fingerprint;
 use tokio::net::TcpListener;
 
 use crate::folder::Folder;
@@ -20,7 +21,7 @@ use crate::{asset, socket, watch};
 pub struct Options {
     /// The project.
     pub folder: PathBuf,
-    /// The port; 0 for one that is free.
+    /// The port; 0 for the folder's own, or one that is free where that is taken.
     pub port: u16,
     /// Nothing is written.
     pub read_only: bool,
@@ -52,9 +53,8 @@ pub fn serve(options: &Options, started: impl FnOnce(&Started), stopped: impl Fn
     let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build();
     let runtime = runtime.map_err(|error| format!("the studio cannot be started: {error}"))?;
     runtime.block_on(async {
-        let wanted = SocketAddr::from((Ipv4Addr::LOCALHOST, options.port));
         let cannot = |error: std::io::Error| format!("port {} of this machine cannot be had: {error}", options.port);
-        let listener = TcpListener::bind(wanted).await.map_err(cannot)?;
+        let listener = listener(folder.root(), options.port).await.map_err(cannot)?;
         let port = listener.local_addr().map_err(cannot)?.port();
         let root = folder.root().to_path_buf();
         let studio = Arc::new(Studio::new(folder, token()?, port, options.read_only, options.program.clone()));
@@ -77,4 +77,24 @@ pub fn serve(options: &Options, started: impl FnOnce(&Started), stopped: impl Fn
     })?;
     runtime.shutdown_background();
     Ok(())
+}
+
+/// Ports of folders: below those that systems give to anybody.
+const OWN_PORTS: std::ops::Range<u64> = 20_000..30_000;
+
+/// The port of a folder. It is the same at each start, so that a page that was left open finds the studio again.
+fn own_port(root: &Path) -> u16 {
+    let number = u64::from_str_radix(&text_fingerprint(&root.to_string_lossy()), 16).unwrap_or_default();
+    (OWN_PORTS.start + number % (OWN_PORTS.end - OWN_PORTS.start)) as u16
+}
+
+async fn listener(root: &Path, port: u16) -> std::io::Result<TcpListener> {
+    let at = |port: u16| TcpListener::bind(SocketAddr::from((Ipv4Addr::LOCALHOST, port)));
+    match port {
+        0 => match at(own_port(root)).await {
+            Ok(listener) => Ok(listener),
+            Err(_) => at(0).await,
+        },
+        port => at(port).await,
+    }
 }

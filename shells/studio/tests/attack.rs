@@ -70,7 +70,7 @@ fn other_sites_and_other_names_get_no_answer() {
 fn nothing_outside_the_folder_is_read_or_written() {
     let running =
         Running::over(&[("a.asm", MODEL), ("sub/b.asm", MODEL), ("README.md", "secret"), (".git/c.asm", "secret")]);
-    let outside = running.place.path();
+    let outside = running.place();
     std::fs::write(outside.join("secret.asm"), "secret").expect("written");
     #[cfg(unix)]
     {
@@ -129,7 +129,7 @@ fn the_language_server_sees_the_folder_alone() {
     let text = "asm a\nimport ../secret\nsignature:\ndefinitions:\n\tmain rule r_m = skip\n";
     let running = Running::over(&[("a.asm", text)]);
     std::fs::write(
-        running.place.path().join("secret.asm"),
+        running.place().join("secret.asm"),
         "module secret\nexport *\nsignature:\n\tstatic password: Integer\ndefinitions:\n",
     )
     .expect("written");
@@ -143,7 +143,7 @@ fn the_language_server_sees_the_folder_alone() {
     assert!(faults.to_string().contains("lies outside the folder that is open"), "{faults}");
     let symbols = tab.ask("workspace/symbol", json!({ "query": "password" })).expect("answered");
     assert!(!symbols.to_string().contains("password"), "{symbols}");
-    let outside = format!("file://{}", running.place.path().join("secret.asm").display());
+    let outside = format!("file://{}", running.place().join("secret.asm").display());
     for method in ["textDocument/documentSymbol", "textDocument/foldingRange", "groundstate/chart/picture"] {
         let told = tab.ask(method, json!({ "textDocument": { "uri": outside } }));
         assert!(!format!("{told:?}").contains("password"), "{method}: {told:?}");

@@ -88,14 +88,14 @@ fn older_code_is_never_called_current() {
 #[test]
 fn nothing_but_generated_code_is_read() {
     let running = running(&map("0"));
-    std::fs::write(running.place.path().join("secret.cpp"), "secret").expect("written");
+    std::fs::write(running.place().join("secret.cpp"), "secret").expect("written");
     #[cfg(unix)]
     {
         use std::os::unix::fs::symlink;
         let code = running.folder().join("sub/a.generated");
-        symlink(running.place.path().join("secret.cpp"), code.join("out.cpp")).expect("linked");
+        symlink(running.place().join("secret.cpp"), code.join("out.cpp")).expect("linked");
         symlink(running.folder().join("sub/other.cpp"), code.join("within.cpp")).expect("linked");
-        symlink(running.place.path(), code.join("up")).expect("linked");
+        symlink(running.place(), code.join("up")).expect("linked");
         symlink(running.folder().join("sub"), code.join("back")).expect("linked");
         symlink(running.folder().join("sub"), running.folder().join("b.generated")).expect("linked");
         std::fs::write(running.folder().join("b.asm"), MODEL).expect("written");
@@ -150,8 +150,8 @@ fn nothing_but_generated_code_is_read() {
 fn nothing_is_generated_or_built_through_a_link_that_leads_out() {
     use std::os::unix::fs::symlink;
     let running = Running::over(&[("a.chart", "chart A\n"), ("b.chart", "chart B\n"), ("b.generated/main.cpp", "")]);
-    symlink(running.place.path(), running.folder().join("a.generated")).expect("linked");
-    symlink(running.place.path(), running.folder().join("b.generated/build")).expect("linked");
+    symlink(running.place(), running.folder().join("a.generated")).expect("linked");
+    symlink(running.place(), running.folder().join("b.generated/build")).expect("linked");
     let mut tab = running.tab();
     for path in ["a.chart", "b.chart"] {
         for job in ["generate", "program"] {
@@ -174,9 +174,9 @@ fn files_of_inputs() {
         ("sub/key.pem", "secret"),
         ("top.yaml", "1: {}\n"),
     ]);
-    std::fs::write(running.place.path().join("secret.yaml"), "secret").expect("written");
+    std::fs::write(running.place().join("secret.yaml"), "secret").expect("written");
     #[cfg(unix)]
-    std::os::unix::fs::symlink(running.place.path().join("secret.yaml"), running.folder().join("sub/link.yaml"))
+    std::os::unix::fs::symlink(running.place().join("secret.yaml"), running.folder().join("sub/link.yaml"))
         .expect("linked");
     let mut tab = running.tab();
     let told = tab.ask("studio/inputs", json!({ "path": "sub/a.asm" })).expect("listed");

@@ -15,7 +15,7 @@ use tungstenite::{Message, WebSocket};
 
 /// A studio that runs until it is dropped.
 pub struct Running {
-    pub place: tempfile::TempDir,
+    place: Option<tempfile::TempDir>,
     pub port: u16,
     pub token: String,
     stop: Arc<AtomicBool>,
@@ -38,6 +38,12 @@ impl Running {
             std::fs::create_dir_all(path.parent().expect("it has one")).expect("made");
             std::fs::write(path, text).expect("written");
         }
+        Running::at(place, read_only, program)
+    }
+
+    /// Starts one over the folder `project` in a place.
+    fn at(place: tempfile::TempDir, read_only: bool, program: &Path) -> Running {
+        let folder = place.path().join("project");
         let stop = Arc::new(AtomicBool::new(false));
         let options = studio::Options { folder, port: 0, read_only, program: program.to_path_buf() };
         let (told, started) = channel();
@@ -49,11 +55,23 @@ impl Running {
         let address = started.recv_timeout(Duration::from_secs(20)).expect("it starts");
         let (host, token) = address.split_once("/?token=").expect("an address with a token");
         let port = host.rsplit(':').next().and_then(|port| port.parse().ok()).expect("a port");
-        Running { place, port, token: token.to_string(), stop, thread: Some(thread) }
+        Running { place: Some(place), port, token: token.to_string(), stop, thread: Some(thread) }
+    }
+
+    /// Stops it, and starts another one over the same folder.
+    pub fn again(mut self) -> Running {
+        let place = self.place.take().expect("it has one until it is dropped");
+        drop(self);
+        Running::at(place, false, Path::new("/bin/false"))
     }
 
     pub fn folder(&self) -> PathBuf {
-        self.place.path().join("project")
+        self.place().join("project")
+    }
+
+    /// Where the folder lies, and what else tests put beside it.
+    pub fn place(&self) -> &Path {
+        self.place.as_ref().expect("it has one until it is dropped").path()
     }
 
     pub fn text(&self, name: &str) -> String {

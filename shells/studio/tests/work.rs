@@ -214,3 +214,49 @@ fn a_studio_that_only_shows_writes_nothing() {
     }
     assert_eq!(running.text("a.asm"), "asm a\n");
 }
+
+#[test]
+fn a_job_tells_which_texts_it_looks_at_and_when_they_are_others() {
+    let module = "module Kinds\nsignature:\ndefinitions:\n";
+    let model = "asm Lamp\nimport Kinds\nsignature:\ndefinitions:\n\tmain rule r_m = skip\n";
+    let files = [("Lamp.asm", model), ("Kinds.asm", module), ("Other.asm", "asm Other\n"), ("Lamp.chart", LAMP)];
+    let running = Running::with(&files, false, std::path::Path::new("/bin/true"));
+    let mut tab = running.tab();
+    let began = tab.ask("studio/job", json!({ "job": "verify", "path": "Lamp.asm", "chart": "Lamp.chart" }));
+    let texts = began.expect("started")["texts"].clone();
+    let hash = |path: &str| texts.as_array().and_then(|all| all.iter().find(|text| text["path"] == path)).cloned();
+    assert_eq!(texts.as_array().map(Vec::len), Some(4), "{texts}");
+    assert_eq!(hash("Lamp.verify.yaml").map(|text| text["hash"].clone()), Some(Value::Null), "{texts}");
+    for path in ["Lamp.chart", "Lamp.asm", "Kinds.asm"] {
+        assert!(hash(path).is_some_and(|text| text["hash"].is_string()), "{path}: {texts}");
+    }
+    // Nobody has opened it, and still its change is told; so is that it is what it was again.
+    std::fs::write(running.folder().join("Kinds.asm"), module.to_string() + "// more\n").expect("written");
+    let told = tab.hear("studio/changed", |params| params["path"] == "Kinds.asm");
+    assert_ne!(Some(&told["hash"]), hash("Kinds.asm").map(|text| text["hash"].clone()).as_ref());
+    std::fs::write(running.folder().join("Kinds.asm"), module).expect("written");
+    let told = tab.hear("studio/changed", |params| params["path"] == "Kinds.asm");
+    assert_eq!(Some(told["hash"].clone()), hash("Kinds.asm").map(|text| text["hash"].clone()));
+    std::fs::write(running.folder().join("Lamp.verify.yaml"), "").expect("written");
+    tab.hear("studio/changed", |params| params["path"] == "Lamp.verify.yaml");
+    // Whether the model is the chart's is what the program says.
+    assert_eq!(
+        tab.ask("studio/model", json!({ "path": "Lamp.chart" })),
+        Ok(json!({ "model": "Lamp.asm", "state": "agrees" }))
+    );
+    assert!(tab.ask("studio/model", json!({ "path": "Lamp.asm" })).is_err());
+    assert!(tab.ask("studio/model", json!({ "path": "../Lamp.chart" })).is_err());
+}
+
+#[test]
+fn a_folder_has_its_port_again() {
+    let first = Running::over(&[("a.asm", "asm a\n")]);
+    let (port, token) = (first.port, first.token.clone());
+    let second = first.again();
+    assert_eq!(second.port, port);
+    // It is another start all the same: who has the former token alone is not let in.
+    let former = format!("groundstate-{port}={token}");
+    assert!(second.get("/", &[("Cookie", &former)]).starts_with("HTTP/1.1 403"));
+    assert!(second.tab_from(&format!("http://127.0.0.1:{port}"), &former).is_err());
+    second.tab();
+}

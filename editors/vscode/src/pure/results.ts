@@ -112,6 +112,16 @@ export interface Verdict {
   steps: number | undefined;
 }
 
+// What every model is checked for, in words.
+const BUILTIN: Record<string, string> = {
+  consistent: "no inconsistent update",
+  "in-domain": "no update outside its domain",
+  defined: "every guard and operation is defined",
+  "no-deadlock": "no deadlock",
+};
+
+export const shownCheck = ({ check, builtin }: Verdict): string => (builtin ? (BUILTIN[check] ?? check) : check);
+
 // The verdict on a property; none if the object is something else.
 export function verdict(object: Json, folder: string): Verdict | undefined {
   if (object.type !== "verdict") return undefined;
