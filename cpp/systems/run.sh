@@ -312,7 +312,7 @@ said "not known, by the order of events"
 expect 0 "$program" --virtual 1 --log "$log"
 head -c 600000 "$log" >"$out/cut.mcap"
 expect 3 "$groundstate" conform Contention.asm "$out/cut.mcap"
-said "not known, by the order of events: the recording has a gap, or ends early"
+said "not known, by the order of events: the recording has no end"
 expect 2 "$program" --virtual 0.1 --log "$out/missing/run.mcap"
 
 # No permission for real-time scheduling.

@@ -1,13 +1,14 @@
-//! Whether the bounds that a recording states are those of the model.
+//! Whether the bounds that a recording states are those of the model, and can have been counted as it says.
 //!
-//! In: what a program says that it counted (spec/charts.md, "What the program counts"), in words, and the model's initial state. Out: the first bound that the two have otherwise;
-//! which bounds were not compared, and of which the recording says nothing. Jitter, lengths of elaborations, new data, missed deadlines
-//! and ages are configuration of the library's machines, so they are read where these read them. The counts are the program's own: nothing here judges them. Devices are not in the
+//! In: what a program says that it counted (spec/charts.md, "What the program counts"), in words, and the model's initial state. Out: the
+//! first bound that the two have otherwise; which bounds were not compared, and of which the recording says nothing. Jitter, lengths of
+//! elaborations, new data, missed deadlines and ages are configuration of the library's machines, so they are read where these read them.
+//! The counts are the program's own: nothing here counts again, but counts that contradict each other are refused. Devices are not in the
 //! model, so between which of them an age counts is not compared.
 
 use machine::{Location, Machine, Value};
 use program::Program;
-use recording::{Bounded, Recording};
+use recording::{Bounded, Greatest, Recording};
 
 use crate::vocabulary::{End, Vocabulary};
 
@@ -187,6 +188,16 @@ pub(crate) fn compare(recording: &Recording, modelled: &[Modelled], vocabulary: 
     Ok(open)
 }
 
+/// The first bound of which no program can have counted what the recording says, as a sentence. A program of which a task failed or hung
+/// may be asked while it counts.
+pub(crate) fn contradiction(recording: &Recording) -> Option<String> {
+    let of = |bound: &Bounded| {
+        let words = Told::read(bound)?.limit.contradiction(bound)?;
+        Some(format!("of {} ({}) {words}", bound.what, bound.limit))
+    };
+    recording.bounds.iter().filter(|_| recording.failure.is_none()).find_map(of)
+}
+
 /// A bound as a program states it.
 struct Told {
     what: What,
@@ -265,6 +276,36 @@ impl What {
 }
 
 impl Limit {
+    /// What of the counts does not fit to this limit, or to each other.
+    fn contradiction(self, bound: &Bounded) -> Option<String> {
+        let &Bounded { seen, below, beyond, greatest, .. } = bound;
+        let (least, most) = match self {
+            Limit::Ns(most) => (0, most),
+            Limit::Between(least, most) => (least, most),
+            Limit::Misses { most, .. } => (0, i128::from(most)),
+        };
+        let (number, shown) = match (self, greatest) {
+            (Limit::Misses { .. }, Greatest::Number(number)) => (number, number.to_string()),
+            (Limit::Ns(_) | Limit::Between(..), Greatest::Time(ns)) => (ns, format!("{} ms", ns as f64 / 1e6)),
+            (Limit::Misses { .. }, Greatest::Time(_)) => {
+                return Some("the greatest value is a length of time".to_string());
+            }
+            (_, Greatest::Number(_)) => return Some("the greatest value is no length of time".to_string()),
+        };
+        let number = i128::from(number);
+        let are_below = if below == 1 { "1 value is".to_string() } else { format!("{below} values are") };
+        match (number > most, beyond > 0) {
+            _ if seen == 0 && number > 0 => Some(format!("nothing was seen, and the greatest value is {shown}")),
+            (true, false) => Some(format!("no value is beyond, and the greatest is {shown}")),
+            (false, true) => Some(format!("some values are beyond, and the greatest is {shown}")),
+            _ if seen > 0 && (number < least) != (below == seen) => {
+                Some(format!("{are_below} below, of {seen}, and the greatest is {shown}"))
+            }
+            _ if seen > 0 && least == 0 && below > 0 => Some(format!("{are_below} below, and there is no least one")),
+            _ => None,
+        }
+    }
+
     fn shown(self, what: &What) -> String {
         let ms = |ns: i128| format!("{} ms", ns as f64 / 1e6);
         match (self, what) {

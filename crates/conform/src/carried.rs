@@ -1,10 +1,10 @@
 //! Whether what a component got from a channel is what was decided for it, datum by datum, and was as new as its readings say.
 //!
 //! In: the recorded events and decisions of all tasks, and the names of the channels. Out: the first datum that was got otherwise than it
-//! was decided, or as new though it was not, or the other way around. A writing takes what its task decided last, and gives it a number; a
-//! reading names the number, and what is got after it is that datum. Neither model nor machine is asked. INVARIANT: the events and
-//! decisions of a task are walked in the order in which it recorded them. A datum that was read before its writer's record of it has come
-//! waits for that; what no machine decided is compared only in whether there was a datum, and a new one.
+//! was decided, or than it was got before, or as new though it was not, or the other way around. A writing takes what its task decided last,
+//! and gives it a number; a reading names the number, and what is got after it is that datum. Neither model nor machine is asked. INVARIANT:
+//! the events and decisions of a task are walked in the order in which it recorded them. A datum that was read before its writer's record of
+//! it has come waits for that. What no machine decided has the value with which it is got first.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
@@ -18,10 +18,34 @@ pub(crate) struct Carried {
     /// The names of the channels; all else that is got comes from sensors.
     channels: BTreeSet<String>,
     walks: Vec<Walk>,
-    /// What was decided for each datum, by channel and number; none if no machine did.
-    written: BTreeMap<(Arc<str>, u64), Option<Vec<Decision>>>,
+    /// Of a channel that is drawn to several readers, and is one for each here, the name that is drawn.
+    drawn: BTreeMap<String, String>,
+    /// The phases that elaborate.
+    elaborations: BTreeSet<String>,
+    /// Each datum, by channel and number.
+    written: BTreeMap<(Arc<str>, u64), Written>,
     /// Data that were got, and not compared yet.
     got: Vec<Got>,
+    /// What no machine decided, as it was got first.
+    first: BTreeMap<Origin, Got>,
+}
+
+/// What is known of a datum.
+#[derive(Debug)]
+enum Written {
+    /// A machine decided it, by these records.
+    Decided(Vec<Decision>),
+    /// No machine did. Data of one origin are one value.
+    From(Origin),
+}
+
+/// Where a value comes from that no machine decided.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+enum Origin {
+    /// The datum of a channel with this number.
+    Datum(Arc<str>, u64),
+    /// What a task computed for all readers of a channel as it is drawn, after so many elaborations.
+    Elaboration { drawn: String, track: usize, count: usize },
 }
 
 /// How far a task has come.
@@ -37,10 +61,13 @@ struct Walk {
     fresh: BTreeSet<Arc<str>>,
     /// The channels from which messages are taken.
     queues: BTreeSet<Arc<str>>,
+    /// How many elaborations have ended, and the channels written to since the last one.
+    elaborations: usize,
+    wrote: BTreeSet<Arc<str>>,
 }
 
 /// A datum that a task got.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 struct Got {
     track: usize,
     number: u64,
@@ -66,6 +93,8 @@ pub(crate) struct Unlike {
 pub(crate) enum To {
     /// As it was decided, by these records.
     Decided(Vec<Decision>),
+    /// As a task got it before, as a datum of a number, by these records.
+    Before { track: usize, number: u64, got: Vec<Decision> },
     /// Not there: nothing had been read.
     Nothing,
     /// New, or not new.
@@ -73,9 +102,13 @@ pub(crate) enum To {
 }
 
 impl Carried {
-    /// Nothing has been seen of the tasks, whose channels have these names.
-    pub(crate) fn new(channels: impl Iterator<Item = String>) -> Carried {
-        Carried { channels: channels.collect(), ..Carried::default() }
+    /// Nothing has been seen of the tasks, which have these channels, some of them drawn by another name, and these elaborations.
+    pub(crate) fn new(
+        channels: BTreeSet<String>,
+        drawn: BTreeMap<String, String>,
+        elaborations: BTreeSet<String>,
+    ) -> Carried {
+        Carried { channels, drawn, elaborations, ..Carried::default() }
     }
 
     /// Goes on as far as the recording is known.
@@ -96,17 +129,26 @@ impl Carried {
                 found = found.or(self.decide(index, track));
             }
         }
-        let written = &self.written;
+        let (written, first) = (&self.written, &mut self.first);
         self.got.retain(|got| {
-            let track = &recording.tracks[got.track];
-            let records = &track.decisions[got.records.clone()];
-            let decided = match written.get(&(Arc::clone(&records[0].object), got.number)) {
-                Some(Some(decided)) => decided,
-                Some(None) => return false,
+            let records = got.records(recording);
+            let to = match written.get(&(Arc::clone(&records[0].object), got.number)) {
                 None => return true,
+                Some(Written::Decided(decided)) if same(records, decided) => return false,
+                Some(Written::Decided(decided)) => To::Decided(decided.clone()),
+                Some(Written::From(origin)) => match first.get(origin) {
+                    None => {
+                        first.insert(origin.clone(), got.clone());
+                        return false;
+                    }
+                    Some(before) if same(records, before.records(recording)) => return false,
+                    Some(before) => {
+                        let (track, number) = (before.track, before.number);
+                        To::Before { track, number, got: before.records(recording).to_vec() }
+                    }
+                },
             };
-            if found.is_none() && !same(records, decided) {
-                let to = To::Decided(decided.clone());
+            if found.is_none() {
                 found = Some(Unlike { track: got.track, number: got.number, got: records.to_vec(), to });
             }
             false
@@ -159,9 +201,23 @@ impl Carried {
         let event = &track.events[walk.events];
         walk.events += 1;
         match event.kind {
+            Kind::Ends if self.elaborations.contains(&*event.object) => {
+                walk.elaborations += 1;
+                walk.wrote.clear();
+            }
             Kind::Writes | Kind::Sends | Kind::Stores => {
-                let decided = walk.decided.get(&event.object).cloned();
-                self.written.insert((Arc::clone(&event.object), event.number), decided);
+                let datum = (Arc::clone(&event.object), event.number);
+                // What is written to a channel again without a new elaboration may be what was there before.
+                let is_first = walk.wrote.insert(Arc::clone(&event.object));
+                let written = match (walk.decided.get(&event.object), self.drawn.get(&*event.object)) {
+                    (Some(decided), _) => Written::Decided(decided.clone()),
+                    (None, Some(drawn)) if is_first => {
+                        let (drawn, count) = (drawn.clone(), walk.elaborations);
+                        Written::From(Origin::Elaboration { drawn, track: index, count })
+                    }
+                    (None, _) => Written::From(Origin::Datum(datum.0.clone(), datum.1)),
+                };
+                self.written.insert(datum, written);
             }
             // Without a new message the last one stays.
             Kind::Takes => {
@@ -183,6 +239,12 @@ impl Carried {
             Kind::GivesUp => _ = walk.fresh.remove(&event.object),
             _ => {}
         }
+    }
+}
+
+impl Got {
+    fn records<'r>(&self, recording: &'r Recording) -> &'r [Decision] {
+        &recording.tracks[self.track].decisions[self.records.clone()]
     }
 }
 

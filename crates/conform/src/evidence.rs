@@ -64,6 +64,14 @@ pub(crate) fn interrupted(events: usize) -> Verdict {
     Verdict::Unknown { events, reason: "the comparison was interrupted".to_string() }
 }
 
+/// What of the run the recording lacks, in words.
+pub(crate) fn missing(recording: &Recording) -> String {
+    match recording.tracks.iter().find(|track| track.lost) {
+        Some(track) => format!("events of {} are missing in the recording", track.task),
+        None => "the recording has no end".to_string(),
+    }
+}
+
 /// All events up to the stop agree. A recording without events says nothing about the program, and one of a run in which a task
 /// failed or hung nothing about what was to come.
 pub(crate) fn conforms(recording: &Recording, events: usize, steps: u64) -> Verdict {

@@ -2,7 +2,7 @@
 //!
 //! In: the model, and the recorded decisions of each task. Out: the first that the machine makes otherwise. A decision is a group of
 //! records: what was got, then what was decided. What was got is set in a machine of the model of its own, in which nothing else happens,
-//! and the rule of the elaboration's end makes the step there. So when it was decided does not matter, and the way in which events are
+//! and the model's rule of ends of elaborations makes the step there. So when it was decided does not matter, and the way in which events are
 //! compared neither. INVARIANT: the state of a component is that after its own decisions, and no other component's step changes it.
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -11,12 +11,14 @@ use std::sync::Arc;
 use machine::{Choice, Environment, Limits, Location, LocationRef, Machine, Show, TimeUnit, Value};
 use model::Basic;
 use program::{DomainId, DomainKind, FunctionId, FunctionKind, ProcedureId, Program, Rule, Runs, Term};
-use recording::{Decision, Event, Kind, Recording};
+use recording::{Decision, Recording};
 
 use crate::carried::{Carried, To, Unlike, goes_on};
+use crate::elaborated::Elaborated;
 use crate::evidence::Parted;
-use crate::steps::Steps;
-use crate::vocabulary::Vocabulary;
+use crate::kept::{Kept, drawn};
+use crate::steps::{End, Steps};
+use crate::vocabulary::{self, Vocabulary};
 
 /// The machines of a model's components, and how far each has come.
 #[derive(Debug)]
@@ -34,17 +36,18 @@ pub(crate) struct Functions {
 #[derive(Debug)]
 struct Task {
     name: String,
-    /// The elaboration.
-    phase: String,
-    end: ProcedureId,
+    /// The elaborations at whose end it computes something; if it has a machine, one.
+    ends: Vec<End>,
     /// The channels and sensors from which its machine gets something, and the channels and actuators for which it decides.
     parts: [Vec<String>; 2],
+    /// What its decisions leave in the model.
+    kept: Kept,
     /// What the first decision was made of: what was got, then what was decided.
     shape: Option<Vec<(bool, Arc<str>, u64)>>,
     /// The next decision.
     cursor: usize,
-    /// How many agree.
-    agreed: usize,
+    /// Where its decisions were recorded.
+    elaborated: Elaborated,
 }
 
 impl Functions {
@@ -52,24 +55,39 @@ impl Functions {
     ///
     /// # Errors
     /// The model does not start, in words.
-    pub(crate) fn new(program: &Arc<Program>, limits: Limits, steps: &Steps) -> Result<Functions, String> {
+    pub(crate) fn new(limits: Limits, steps: &Steps) -> Result<Functions, String> {
+        let decisions = steps.decisions();
+        let program = decisions.map_or(&steps.program, |decisions| &decisions.program);
+        let ends = decisions.map_or(&[][..], |decisions| &decisions.ends);
         let mut machine = Machine::new(Arc::clone(program), limits);
         machine.start(&mut Got::default()).map_err(|fault| fault.show(program).to_string())?;
         let (mut tasks, mut channels) = (Vec::new(), BTreeMap::new());
-        if !steps.ends().is_empty() {
+        let (mut names, mut elaborations) = (BTreeMap::new(), BTreeSet::new());
+        if !ends.is_empty() {
             let vocabulary = Vocabulary::new(program, &machine)?;
             for (index, component) in vocabulary.components.iter().enumerate() {
-                let end = |(phase, end): &(String, ProcedureId)| {
-                    vocabulary.phase_named(&machine, index, phase).map(|_| (phase.clone(), *end))
-                };
+                let is_own = |end: &&End| vocabulary.phase_named(&machine, index, &end.phase).is_some();
                 for phase in &component.phases {
                     let channel = vocabulary.channel(&machine, phase);
-                    channels.insert(channel.show(program).to_string(), channel);
+                    if channel.is_undef() {
+                        elaborations.insert(phase.show(program).to_string());
+                        continue;
+                    }
+                    let name = channel.show(program).to_string();
+                    if vocabulary.end(&channel, vocabulary::End::Writes) == Some(index)
+                        && let Some(function) = drawn(program, &vocabulary, &component.name, &name)
+                    {
+                        let own = program.function(function).name.strip_prefix(&format!("{}_", component.name));
+                        names.insert(name.clone(), own.unwrap_or_default().to_string());
+                    }
+                    channels.insert(name, channel);
                 }
-                if let Some((phase, end)) = steps.ends().iter().find_map(end) {
+                let ends: Vec<End> = ends.iter().filter(is_own).cloned().collect();
+                if !ends.is_empty() {
                     let (name, parts) = (component.name.clone(), [Vec::new(), Vec::new()]);
-                    let (shape, cursor, agreed) = (None, 0, 0);
-                    tasks.push(Task { name, phase, end, parts, shape, cursor, agreed });
+                    let (shape, cursor, elaborated) = (None, 0, Elaborated::new(&ends[0].phase));
+                    let kept = Kept::of(&machine, &vocabulary, index);
+                    tasks.push(Task { name, ends, parts, kept, shape, cursor, elaborated });
                 }
             }
             // What a component writes without a machine is an input of the model: the program says nothing of it.
@@ -84,9 +102,12 @@ impl Functions {
                 let drawn = channels.keys().filter_map(|channel| drawn(program, &vocabulary, &task.name, channel));
                 drawn.into_iter().any(|function| program.function(function).kind == FunctionKind::Monitored)
             };
-            tasks.retain(|task| of(task, FunctionKind::Monitored).is_empty() && !given(task));
+            let (own, others) =
+                tasks.into_iter().partition(|task| of(task, FunctionKind::Monitored).is_empty() && !given(task));
+            tasks = own;
+            are_kept(&mut machine, others)?;
             for task in &mut tasks {
-                let [sensors, actuators] = devices(program, task.end);
+                let [sensors, actuators] = devices(program, task.ends[0].own);
                 task.parts = [of(task, FunctionKind::Derived), of(task, FunctionKind::Controlled)];
                 let is_told = |channel: &&String| {
                     // The machine knows a channel to several readers by the name that is drawn.
@@ -105,7 +126,7 @@ impl Functions {
                 }
             }
         }
-        let carried = Carried::new(channels.keys().cloned());
+        let carried = Carried::new(channels.keys().cloned().collect(), names, elaborations);
         Ok(Functions { machine, tasks, channels, agreed: 0, carried })
     }
 
@@ -123,30 +144,31 @@ impl Functions {
             let more = goes_on(recording, track, more);
             while let Some(group) = next(&track.decisions[self.tasks[index].cursor..], more) {
                 let decisions = &track.decisions[self.tasks[index].cursor..][..group];
-                let malformed = self.unlike(index, decisions).or_else(|| self.outside(index, decisions));
+                let malformed = self
+                    .unlike(index, decisions)
+                    .or_else(|| self.outside(index, decisions))
+                    .or_else(|| self.tasks[index].elaborated.misplaced(&track.events, decisions));
                 if let Some(reason) = malformed {
-                    return Some(self.parted(index, recording, decisions, reason));
+                    return Some(self.parted(self.named(index), recording, decisions, reason));
                 }
                 if let Some(reason) = self.decide(index, decisions) {
-                    return Some(self.parted(index, recording, decisions, reason));
+                    return Some(self.parted(self.named(index), recording, decisions, reason));
                 }
                 self.tasks[index].cursor += group;
-                self.tasks[index].agreed += 1;
                 self.agreed += 1;
             }
             // Each elaboration that has ended has decided, and is recorded.
-            let task = &self.tasks[index];
-            let is_end = |event: &&Event| event.kind == Kind::Ends && *event.object == *task.phase;
-            let ended = track.events.iter().filter(is_end).count();
-            if !more && ended > task.agreed {
-                let times = |count| if count == 1 { "once".to_string() } else { format!("{count} times") };
-                let reason = format!(
-                    "ended {} {}, but what it decided is recorded {}",
-                    task.phase,
-                    times(ended),
-                    if task.agreed == 0 { "never".to_string() } else { times(task.agreed) },
-                );
-                return Some(self.parted(index, recording, &[], reason));
+            let lacks = if more { None } else { self.tasks[index].elaborated.lacks(&track.events) };
+            if let Some(reason) = lacks {
+                return Some(self.parted(self.named(index), recording, &[], reason));
+            }
+        }
+        let is_known = |task: &str| self.tasks.iter().any(|known| known.name == task);
+        for track in recording.tracks.iter().filter(|track| !is_known(&track.task)) {
+            if let Some(decision) = track.decisions.first() {
+                let did = if decision.is_got { "got" } else { "decided for" };
+                let reason = format!("{did} {}, and has no machine in the model", decision.object);
+                return Some(self.parted((&track.task, None), recording, &track.decisions[..1], reason));
             }
         }
         let unlike = self.carried.go_on(recording, more)?;
@@ -165,6 +187,17 @@ impl Functions {
             To::Nothing => format!("got {name} = {} before there was a datum", got.show(program)),
             To::Newness(true) => format!("got {name} as not new, and its reading brought a new one: {}", unlike.number),
             To::Newness(false) => format!("got {name} as new, and its last reading brought no new one"),
+            To::Before { track, number, got: before } => {
+                let (other, object) = (&recording.tracks[*track].task, &before[0].object);
+                let who = if other == task { "it" } else { other };
+                format!(
+                    "got {name} = {} as datum {}, which {who} got from {object} at {:.4} ms as {} (datum {number})",
+                    got.show(program),
+                    unlike.number,
+                    before[0].time_ns as f64 / 1e6,
+                    recorded(program, table, before).show(program),
+                )
+            }
             To::Decided(decided) => format!(
                 "got {name} = {} as datum {}, which was decided as {}",
                 got.show(program),
@@ -172,7 +205,7 @@ impl Functions {
                 recorded(program, table, decided).show(program)
             ),
         };
-        Some(self.parted(index, recording, &unlike.got, reason))
+        Some(self.parted(self.named(index), recording, &unlike.got, reason))
     }
 
     /// What of a decision is missing or too much, if it is not made of what decisions of this task are made of.
@@ -200,18 +233,30 @@ impl Functions {
         Some(format!("{verb} other things than in its first decision: see {object}"))
     }
 
-    fn parted(&self, index: usize, recording: &Recording, decisions: &[Decision], reason: String) -> Parted {
+    /// A task with a machine, for [`Functions::parted`].
+    fn named(&self, index: usize) -> (&str, Option<usize>) {
+        (&self.tasks[index].name, Some(index))
+    }
+
+    /// A difference of a task, which has a machine in the model if there is one with its name here.
+    fn parted(
+        &self,
+        (task, machine): (&str, Option<usize>),
+        recording: &Recording,
+        decisions: &[Decision],
+        reason: String,
+    ) -> Parted {
         let time_ns = decisions.last().map_or(0, |decision| decision.time_ns);
         Parted {
             tick: time_ns.div_euclid(recording.tick_ns.max(1)),
-            task: self.tasks[index].name.clone(),
+            task: task.to_string(),
             event: None,
             claims: Vec::new(),
             reason: Some(reason),
             decides: true,
             agreed: self.agreed,
             before: Vec::new(),
-            state: self.state(index),
+            state: machine.map(|index| self.state(index)).unwrap_or_default(),
         }
     }
 
@@ -273,7 +318,7 @@ impl Functions {
             }
         }
         let from = if words.is_empty() { String::new() } else { format!(" from {}", words.join(", ")) };
-        let end = self.tasks[index].end;
+        let end = self.tasks[index].ends[0].computes;
         if let Err(fault) = self.machine.prepare_procedure(end, &mut got) {
             return Some(format!("its machine cannot decide{from}: {}", fault.show(&program)));
         }
@@ -289,10 +334,14 @@ impl Functions {
             let recorded = recorded(&program, function, values);
             if decided != recorded {
                 let (name, did, does) = (&decision.object, recorded.show(&program), decided.show(&program));
-                return Some(format!("decided {name} = {did}, its machine {does},{from}"));
+                return Some(format!(
+                    "decided {name} = {did}, its machine {does}{}{from}",
+                    if from.is_empty() { "" } else { "," }
+                ));
             }
         }
-        None
+        let lacks = self.tasks[index].kept.lacks(&self.machine)?;
+        Some(format!("decided as its machine does, but in the model {lacks}"))
     }
 
     /// Sets what was got; says it in words.
@@ -331,6 +380,29 @@ impl Functions {
     fn set(&mut self, location: Location, value: Value) -> Result<(), String> {
         self.machine.set(&location, value).map_err(|fault| fault.show(self.machine.program()).to_string())
     }
+}
+
+/// Whether the model keeps what tasks compute without a machine. No recording says what it is, so any value stands for it.
+fn are_kept(machine: &mut Machine, tasks: Vec<Task>) -> Result<(), String> {
+    let program = Arc::clone(machine.program());
+    for Task { name, ends, kept, .. } in tasks {
+        let mut given = Got::default();
+        for own in kept.data().map(|datum| datum.own) {
+            let domain = program.function(own).codomain;
+            let some = value(&program, domain, &mut std::iter::repeat(0));
+            given.said.extend(some.filter(|some| machine.contains(domain, some)).map(|some| (own, some)));
+        }
+        for end in &ends {
+            let made = machine.prepare_procedure(end.computes, &mut given);
+            made.map_err(|fault| format!("the model cannot end {}: {}", end.phase, fault.show(&program)))?;
+            machine.commit();
+        }
+        let said = |own: FunctionId| given.said.iter().find(|(known, _)| *known == own).map(|(_, some)| some.clone());
+        if let Some(lacks) = kept.lacks_datum(machine, &said) {
+            return Err(format!("the model loses what {name} computes: {lacks}"));
+        }
+    }
+    Ok(())
 }
 
 /// The sensors that the end of an elaboration reads, and the actuators that it sets, by calls and definitions too. What a machine only
@@ -373,18 +445,6 @@ fn devices(program: &Program, end: ProcedureId) -> [Vec<String>; 2] {
         found.into_iter().filter(is_device).map(|id| function(id).name.clone()).collect()
     };
     [of(read, FunctionKind::Monitored), of(set, FunctionKind::Out)]
-}
-
-/// The function of what a task computes for a channel that is drawn to several readers: `TASK_DRAWN`, where the channel to one of them is
-/// `DRAWN_READER`. None for other channels, for which the task has a function of their own name.
-fn drawn(program: &Program, vocabulary: &Vocabulary, task: &str, channel: &str) -> Option<FunctionId> {
-    program.find_function(&format!("{channel}_value"), 1)?;
-    if program.find_function(&format!("{task}_{channel}"), 0).is_some() {
-        return None;
-    }
-    let mut names =
-        vocabulary.components.iter().filter_map(|reader| channel.strip_suffix(&reader.name)?.strip_suffix('_'));
-    names.find_map(|drawn| program.find_function(&format!("{task}_{drawn}"), 0))
 }
 
 /// How many of these records are the first decision, if it is known to be whole.

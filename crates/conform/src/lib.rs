@@ -4,25 +4,32 @@
 //! whole or still being written. Out of a [`Session`]: a [`Verdict`]. The changes of a machine's step show which events
 //! the tasks have in it (`claims`); these and the recorded ones must be the same. In virtual time that follows the
 //! model, each tick is a step of the main rule (`timed`). In any other time one task steps at a time, in an order that
-//! agrees with the recorded instants (`untimed`). What components' machines decide is replayed apart (`functions`). The meaning of a rule stays in the machine; a run that was not wholly
-//! recorded never conforms.
+//! agrees with the recorded instants (`untimed`, `single`). What components' machines decide is replayed apart (`functions`, `ends`). The meaning of a rule
+//! stays in the machine; a run that was not wholly recorded never conforms.
 
 mod accesses;
+mod apart;
 mod bounds;
 mod carried;
 mod claims;
+mod elaborated;
+mod ends;
 mod events;
 mod evidence;
 mod fault;
 mod functions;
 mod head;
+mod kept;
 mod order;
+mod refusal;
 mod session;
+mod single;
 mod steps;
 mod timed;
 mod untimed;
 mod vocabulary;
 mod waiting;
+mod way;
 
 pub use accesses::Access;
 pub use bounds::Open;
@@ -30,7 +37,9 @@ pub use events::Events;
 pub use evidence::{Claim, Parted, Recorded};
 pub use fault::{IDS as FAULT_IDS, diagnose_parted};
 pub use recording::{Decision, Event, Kind, Malformed, Reader, Recording, Rhythm, Track};
-pub use session::{Refusal, Session, Way};
+pub use refusal::Refusal;
+pub use session::Session;
+pub use way::Way;
 
 /// The result.
 #[derive(Debug, Clone, PartialEq, Eq)]

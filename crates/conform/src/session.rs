@@ -10,58 +10,24 @@ use std::sync::Arc;
 use machine::{Interrupt, Limits, Machine};
 use model::Model;
 use program::Program;
-use syntax::{Diagnostic, Sources};
+use syntax::Sources;
 
 use crate::Verdict;
 use crate::accesses::{self, Access};
 use crate::bounds::{self, Modelled};
 use crate::functions::Functions;
 use crate::head::{contradiction, unsaid};
+use crate::refusal::Refusal;
 use crate::steps::Steps;
 use crate::vocabulary::Vocabulary;
+use crate::way::Way;
 use crate::{timed, untimed};
 use recording::{Kind, Recording, Track};
-
-/// How a recording is compared.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Way {
-    /// Each tick is a step.
-    Timed,
-    /// One task steps at a time.
-    Untimed,
-}
-
-impl Way {
-    /// In words.
-    pub fn words(self) -> &'static str {
-        match self {
-            Way::Timed => "tick by tick",
-            Way::Untimed => "by the order of events",
-        }
-    }
-}
-
-/// Why a recording cannot be compared with a model.
-#[derive(Debug)]
-pub enum Refusal {
-    /// In words.
-    Words(String),
-    /// The model lacks what the replay calls.
-    Model(Sources, Vec<Diagnostic>),
-}
-
-impl From<String> for Refusal {
-    fn from(words: String) -> Refusal {
-        Refusal::Words(words)
-    }
-}
 
 /// A replay on its way.
 #[derive(Debug)]
 pub struct Session {
     sources: Sources,
-    /// The model's program with the steps of its tasks.
-    program: Arc<Program>,
     steps: Steps,
     limits: Limits,
     replay: Replay,
@@ -87,18 +53,10 @@ enum Replay {
 }
 
 impl Replay {
-    fn begin(
-        program: &Arc<Program>,
-        limits: Limits,
-        steps: &Steps,
-        head: &Recording,
-        by_order: bool,
-    ) -> Result<Replay, String> {
+    fn begin(limits: Limits, steps: &Steps, head: &Recording, by_order: bool) -> Result<Replay, String> {
         match head.pace.as_str() {
-            "modelled" if !by_order => Ok(Replay::Timed(Box::new(timed::Replay::new(program, limits, steps)?))),
-            "modelled" | "drawn" | "real" => {
-                Ok(Replay::Untimed(Box::new(untimed::Replay::new(program, limits, steps, head)?)))
-            }
+            "modelled" if !by_order => Ok(Replay::Timed(Box::new(timed::Replay::new(limits, steps)?))),
+            "modelled" | "drawn" | "real" => Ok(Replay::Untimed(Box::new(untimed::Replay::new(limits, steps, head)?))),
             other => Err(format!("the recording is of no known pace: `{other}`")),
         }
     }
@@ -112,7 +70,7 @@ impl Session {
     pub fn new(
         mut sources: Sources,
         mut model: Model,
-        mut program: Program,
+        program: Program,
         limits: Limits,
         head: &Recording,
         by_order: bool,
@@ -132,16 +90,11 @@ impl Session {
             return Err(format!("the recording is of another system: {words}").into());
         }
         let bounds = bounds::modelled(&program, &machine, &vocabulary, head.tick_ns);
-        let steps = match Steps::add(&head.wait_free, &mut sources, &mut model, &mut program) {
-            Ok(steps) => steps,
-            Err(faults) => return Err(Refusal::Model(sources, faults)),
-        };
-        let program = Arc::new(program);
-        let replay = Replay::begin(&program, limits.clone(), &steps, head, by_order)?;
-        let functions = Functions::new(&program, limits.clone(), &steps)?;
+        let steps = Steps::new(&head.wait_free, &mut sources, &mut model, &vocabulary)?;
+        let replay = Replay::begin(limits.clone(), &steps, head, by_order)?;
+        let functions = Functions::new(limits.clone(), &steps)?;
         Ok(Session {
             sources,
-            program,
             steps,
             limits,
             replay,
@@ -156,7 +109,7 @@ impl Session {
 
     /// How many decisions of components' machines agree; none if no component has one.
     pub fn decisions(&self) -> Option<usize> {
-        self.steps.tick().map(|_| self.functions.agreed())
+        self.steps.decisions().map(|_| self.functions.agreed())
     }
 
     /// How often each task accessed its channels in the recording, and how often it did not.
@@ -172,10 +125,14 @@ impl Session {
     /// What was not compared of the bounds that recording and model state. The recording states its own at its end.
     ///
     /// # Errors
-    /// The two have another bound: the recording is of another system.
+    /// The two have another bound: the recording is of another system. Or it says of one what cannot have been counted.
     pub fn bounds(&self, recording: &Recording) -> Result<bounds::Open, Refusal> {
         let compared = bounds::compare(recording, &self.bounds, &self.initial.1);
-        compared.map_err(|words| format!("the recording is of another system: {words}").into())
+        let open = compared.map_err(|words| format!("the recording is of another system: {words}"))?;
+        match bounds::contradiction(recording) {
+            Some(words) => Err(format!("the end of the recording contradicts itself: {words}").into()),
+            None => Ok(open),
+        }
     }
 
     /// From now on, an interrupt ends the comparison within [`Session::go_on`]; the verdict is then unknown.
@@ -189,8 +146,8 @@ impl Session {
     /// # Errors
     /// It cannot be replayed.
     pub fn begin_again(&mut self, head: &Recording, by_order: bool) -> Result<(), Refusal> {
-        self.replay = Replay::begin(&self.program, self.limits.clone(), &self.steps, head, by_order)?;
-        self.functions = Functions::new(&self.program, self.limits.clone(), &self.steps)?;
+        self.replay = Replay::begin(self.limits.clone(), &self.steps, head, by_order)?;
+        self.functions = Functions::new(self.limits.clone(), &self.steps)?;
         match &mut self.replay {
             Replay::Timed(replay) => replay.interpret(),
             Replay::Untimed(replay) => replay.interpret(),
@@ -236,7 +193,7 @@ impl Session {
     }
 
     fn begin_by_order(&mut self, recording: &Recording) -> Result<(), Refusal> {
-        let replay = untimed::Replay::new(&self.program, self.limits.clone(), &self.steps, recording)?;
+        let replay = untimed::Replay::new(self.limits.clone(), &self.steps, recording)?;
         self.replay = Replay::Untimed(Box::new(replay));
         Ok(())
     }

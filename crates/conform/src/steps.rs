@@ -1,18 +1,24 @@
-//! What a replay needs besides the model's own main rule: the steps of single tasks, and changes of the configuration.
+//! What a replay needs besides the model's own main rule: the steps of single tasks, those of machines, and changes of the configuration.
 //!
-//! In: a checked model. Out: procedures, added to its program. The rules are the library's own and stay as they are.
+//! In: a checked model. Out: its program, with procedures added. The main rule is the model's own. If components have machines, the model is
+//! lowered twice: with ends of elaborations that only tell so (`ends`), which events are held to; and as it is, for what is decided there.
 //! Only the configuration, which is state, is changed before a run. If the replay does not follow ticks, phases take no
 //! time. Wait-free channels, which have no lock and keep only the latest datum, become shared values.
 
 use std::sync::Arc;
 
 use machine::{Closed, Limits, Machine};
-use model::{DomainKind, Model};
+use model::{DomainId, DomainKind, FunctionId, Model};
 use program::{ProcedureId, Program};
 use syntax::ast::{self, AstNode};
 use syntax::{Diagnostic, Severity, SourceFile, Sources};
 
+use crate::apart::{entangled, without_counts};
+use crate::ends::{self, Ends};
+use crate::refusal::Refusal;
+use crate::single::one_task_steps;
 use crate::vocabulary::{Named, Vocabulary};
+use crate::way::Way;
 
 /// Phases take no time, and a rest follows each. Each task gets a deadline of its own, so its period can differ while a
 /// cycle ends.
@@ -25,50 +31,55 @@ const LOOSEN: &str = "par \
        endpar \
    endpar";
 
-/// The chosen component steps. One rule for all of them is compiled once.
-const STEP: &str = "choose $c in Scheduler with true do par \
-     r_scheduler_execute[$c] \
-     forall $s in Semaphore with true do r_sem_arbitrate[$s] \
-   endpar";
-
-/// A tick of a system whose components have machines, without these: what they compute is not recorded.
-const TICK: &str = "par \
-     forall $c in Scheduler with true do r_scheduler_execute[$c] \
-     forall $s in Semaphore with true do r_sem_arbitrate[$s] \
-     clock := clock + 1 \
-   endpar";
-
-/// The rule of the tasks of such a system, as `chart build` names it.
-const COMPUTING: &str = "r_computingTask";
-
-/// What the names of the rules that end elaborations begin with.
-const END: &str = "r_end_";
-
-/// Adds the steps of tasks to a program.
+/// The programs of a model, and its steps in them.
 #[derive(Debug, Clone)]
 pub struct Steps {
+    /// The program that makes the steps of all tasks.
+    pub program: Arc<Program>,
+    /// The program that makes the steps of single tasks, without the rules that only count.
+    single: Arc<Program>,
     loosen: ProcedureId,
-    /// A component, which is chosen, steps.
-    step: ProcedureId,
-    /// All components step, without their machines. None if none has one: the main rule is then such a step.
-    tick: Option<ProcedureId>,
-    /// For each phase in which a machine decides, the rule of its end.
-    ends: Vec<(String, ProcedureId)>,
+    /// A component, which is chosen, steps; otherwise why none can by itself.
+    step: Result<ProcedureId, String>,
+    /// What is computed at ends of elaborations; none if no component has a machine.
+    decisions: Option<Decisions>,
     /// One for each wait-free channel, by its name: it becomes a shared value.
     cells: Vec<(String, ProcedureId)>,
 }
 
+/// What is computed at ends of elaborations.
+#[derive(Debug, Clone)]
+pub struct Decisions {
+    /// The model as it is.
+    pub program: Arc<Program>,
+    /// For each phase at whose end something is computed, what the model does there.
+    pub ends: Vec<End>,
+    /// In the program of the steps, the function that tells that an elaboration ended.
+    told: FunctionId,
+}
+
+/// The end of an elaboration.
+#[derive(Debug, Clone)]
+pub struct End {
+    /// The phase.
+    pub phase: String,
+    /// What the model does when it ends.
+    pub computes: ProcedureId,
+    /// The rule that `chart build` wrote for it, and for no other.
+    pub own: ProcedureId,
+}
+
 impl Steps {
-    /// Adds the step of a component to a program, and the rules that make these channels shared values.
+    /// Makes the programs of a model that has these functions of the library.
     ///
     /// # Errors
-    /// The model lacks what they call.
-    pub fn add(
+    /// The model lacks what the replay calls, or cannot be taken apart.
+    pub fn new(
         wait_free: &[String],
         sources: &mut Sources,
         model: &mut Model,
-        program: &mut Program,
-    ) -> Result<Steps, Vec<Diagnostic>> {
+        vocabulary: &Vocabulary,
+    ) -> Result<Steps, Refusal> {
         // The rests and the cells are new; the library, where all phases and values are known, does not need them.
         for name in ["SchedulePhase", "SharedValue"] {
             if let Some(domain) = model.domain_named(name)
@@ -77,40 +88,59 @@ impl Steps {
                 *dynamic = true;
             }
         }
-        *program = program::lower(model)?;
-        let mut add = |text: &str| rule(text, sources, model, program);
-        let loosen = add(LOOSEN)?;
-        let step = add(STEP)?;
-        let computes = computes(model);
-        let mut add = |text: &str| rule(text, sources, model, program);
-        let tick = if computes { Some(add(TICK)?) } else { None };
-        let phases = ends_of(model);
-        let end = |phase: String| Ok((phase.clone(), rule(&format!("{END}{phase}[]"), sources, model, program)?));
-        let ends = phases.into_iter().map(end).collect::<Result<Vec<_>, Vec<Diagnostic>>>()?;
-        let mut add = |text: &str| rule(text, sources, model, program);
-        let cell = |name: &String| {
-            format!(
-                "extend SharedValue with $v do par \
-                   sv_staged($v) := 0 sv_sequence($v) := 0 sv_overwritten($v) := 0 \
-                   sv_received($v) := 0 sv_receivedSequence($v) := 0 sv_fresh($v) := false \
-                   forall $p in SchedulePhase with sharedMemory($p) = {name} do par \
-                     sharedValue($p) := $v sharedMemory($p) := undef \
-                     switch action($p) case WRITING_ON_SB: action($p) := STORING \
-                       case READING_FROM_SB: action($p) := LOADING endswitch \
-                   endpar \
-                 endpar"
-            )
+        let faulty = |sources: &Sources, faults| Refusal::Model(sources.clone(), faults);
+        let of = |named: Named| model.function(vocabulary.function(named)).parameters[0];
+        let (phase, scheduler) = (of(Named::Action), of(Named::CurrentPhase));
+        let clock = vocabulary.function(Named::Clock);
+        let decisions = match ends::phases(model, phase) {
+            phases if phases.is_empty() => None,
+            phases => {
+                let decisions = Decisions::new(phases, (clock, phase), sources, model);
+                Some(decisions.map_err(|faults| faulty(sources, faults))?)
+            }
         };
-        let cells: Result<Vec<_>, _> =
-            wait_free.iter().map(|name| add(&cell(name)).map(|procedure| (name.clone(), procedure))).collect();
-        Ok(Steps { loosen, step, tick, ends, cells: cells? })
+        let added = |sources: &mut Sources, model: &mut Model| -> Result<_, Vec<Diagnostic>> {
+            let mut program = program::lower(model)?;
+            let loosen = rule(LOOSEN, sources, model, &mut program)?;
+            let step = match one_task_steps(model, scheduler) {
+                Ok(step) => Ok(program::lower_rule(&mut program, model, &step)?),
+                Err(words) => Err(words),
+            };
+            let cell = |name: &String| Ok((name.clone(), rule(&cell(name), sources, model, &mut program)?));
+            let cells = wait_free.iter().map(cell).collect::<Result<Vec<_>, Vec<Diagnostic>>>()?;
+            Ok((program, loosen, step, cells))
+        };
+        let (program, loosen, step, cells) = added(sources, model).map_err(|faults| faulty(sources, faults))?;
+        let told = || vocabulary.functions().chain(decisions.as_ref().map(|decisions| decisions.told));
+        if let Some(Decisions { program: computes, ends, .. }) = &decisions
+            && let Some(words) = entangled(&program, told(), computes, ends.iter().map(|end| end.computes))
+        {
+            return Err(Refusal::Words(words));
+        }
+        let mut single = program.clone();
+        if let Ok(step) = step {
+            without_counts(&mut single, step, told());
+        }
+        let (program, single) = (Arc::new(program), Arc::new(single));
+        Ok(Steps { program, single, loosen, step, decisions, cells })
     }
 
-    /// The model in its initial state, with the wait-free channels as shared values, and what is known of it.
+    /// The model in its initial state, with the wait-free channels as shared values, what is known of it, and its ends of elaborations. It
+    /// makes steps of all tasks, or of single ones.
     ///
     /// # Errors
     /// It does not start, or is not made of the library of patterns; in words.
-    pub fn start(&self, program: &Arc<Program>, limits: Limits) -> Result<(Machine, Vocabulary), String> {
+    pub fn start(&self, way: Way, limits: Limits) -> Result<(Machine, Vocabulary, Ends), String> {
+        let program = if way == Way::Timed { &self.program } else { &self.single };
+        let (mut machine, vocabulary) = self.start_cells(program, limits)?;
+        let Some(decisions) = &self.decisions else { return Ok((machine, vocabulary, Ends::default())) };
+        let phases: Vec<String> = decisions.ends.iter().map(|end| end.phase.clone()).collect();
+        let ends = Ends::start(decisions.told, &phases, &mut machine, &vocabulary);
+        let ends = ends.map_err(|fault| fault.show(&self.program).to_string())?;
+        Ok((machine, vocabulary, ends))
+    }
+
+    fn start_cells(&self, program: &Arc<Program>, limits: Limits) -> Result<(Machine, Vocabulary), String> {
         let mut machine = Machine::new(Arc::clone(program), limits);
         machine.start(&mut Closed).map_err(|fault| fault.show(program).to_string())?;
         let before = Vocabulary::new(program, &machine)?;
@@ -129,19 +159,17 @@ impl Steps {
         Ok((machine, vocabulary))
     }
 
-    /// The step of a component, which the environment chooses: it is the first choice of the step, among all schedulers.
-    pub fn step(&self) -> ProcedureId {
-        self.step
+    /// The step of a component, which the environment chooses among all schedulers.
+    ///
+    /// # Errors
+    /// In words, why no step of one task can be made of the model's main rule.
+    pub fn step(&self) -> Result<ProcedureId, String> {
+        self.step.clone()
     }
 
-    /// The step of all components in a tick, if it is not the main rule.
-    pub fn tick(&self) -> Option<ProcedureId> {
-        self.tick
-    }
-
-    /// For each phase in which a machine decides, the rule of its end.
-    pub fn ends(&self) -> &[(String, ProcedureId)] {
-        &self.ends
+    /// What is computed at ends of elaborations; none if no component has a machine.
+    pub fn decisions(&self) -> Option<&Decisions> {
+        self.decisions.as_ref()
     }
 
     /// From now on phases take no time, and a rest follows each.
@@ -153,17 +181,41 @@ impl Steps {
     }
 }
 
-/// Whether components of the system have machines.
-fn computes(model: &Model) -> bool {
-    model.rules.iter().any(|rule| rule.name == COMPUTING)
+impl Decisions {
+    /// Lowers the model as it is, and leaves one in which the ends of elaborations only tell so.
+    fn new(
+        phases: Vec<String>,
+        (clock, phase): (FunctionId, DomainId),
+        sources: &mut Sources,
+        model: &mut Model,
+    ) -> Result<Decisions, Vec<Diagnostic>> {
+        let mut program = program::lower(model)?;
+        let mut all = Vec::new();
+        for name in phases {
+            let own = rule(&format!("{}{name}[]", ends::END_OF), sources, model, &mut program)?;
+            let computes = match ends::has_rule(model) {
+                true => rule(&format!("{}[{name}]", ends::END), sources, model, &mut program)?,
+                false => own,
+            };
+            all.push(End { phase: name, computes, own });
+        }
+        Ok(Decisions { program: Arc::new(program), ends: all, told: ends::tell(model, clock, phase) })
+    }
 }
 
-/// The phases that have a rule of their end.
-fn ends_of(model: &Model) -> Vec<String> {
-    if !computes(model) {
-        return Vec::new();
-    }
-    model.rules.iter().filter_map(|rule| rule.name.strip_prefix(END)).map(str::to_string).collect()
+/// Lets a wait-free channel be a shared value.
+fn cell(name: &str) -> String {
+    format!(
+        "extend SharedValue with $v do par \
+           sv_staged($v) := 0 sv_sequence($v) := 0 sv_overwritten($v) := 0 \
+           sv_received($v) := 0 sv_receivedSequence($v) := 0 sv_fresh($v) := false \
+           forall $p in SchedulePhase with sharedMemory($p) = {name} do par \
+             sharedValue($p) := $v sharedMemory($p) := undef \
+             switch action($p) case WRITING_ON_SB: action($p) := STORING \
+               case READING_FROM_SB: action($p) := LOADING endswitch \
+           endpar \
+         endpar"
+    )
 }
 
 fn run(machine: &mut Machine, procedure: ProcedureId) -> Result<(), String> {

@@ -3,16 +3,15 @@
 //! In: the model, a recording whose pace is `modelled`. Every event must be one of the step of its tick, and every event
 //! of a step must have been recorded at its tick, those of one task in the order that `claims` gives them.
 
-use std::sync::Arc;
-
 use machine::{EngineChoice, Interrupt, Limits, Machine};
-use program::{ProcedureId, Program};
 
 use crate::Verdict;
+use crate::ends::Ends;
 use crate::events::Longest;
-use crate::evidence::{Claim, Parted, Recorded, conforms, interrupted, objects, out_of_turn};
+use crate::evidence::{Claim, Parted, Recorded, conforms, interrupted, missing, objects, out_of_turn};
 use crate::steps::Steps;
 use crate::vocabulary::Vocabulary;
+use crate::way::Way;
 use recording::{Event, Kind, Recording};
 
 /// This many of the last events are shown where the two differ.
@@ -23,8 +22,7 @@ const SHOWN: usize = 12;
 pub struct Replay {
     machine: Machine,
     vocabulary: Vocabulary,
-    /// What a tick does, if it is not the main rule.
-    procedure: Option<ProcedureId>,
+    ends: Ends,
     /// The next tick.
     tick: i64,
     cursors: Vec<usize>,
@@ -36,10 +34,10 @@ impl Replay {
     ///
     /// # Errors
     /// It cannot be replayed, in words: it does not start, or is not made of the library's patterns.
-    pub fn new(program: &Arc<Program>, limits: Limits, steps: &Steps) -> Result<Replay, String> {
-        let (machine, vocabulary) = steps.start(program, limits)?;
+    pub fn new(limits: Limits, steps: &Steps) -> Result<Replay, String> {
+        let (machine, vocabulary, ends) = steps.start(Way::Timed, limits)?;
         let cursors = vec![0; vocabulary.components.len()];
-        Ok(Replay { machine, vocabulary, procedure: steps.tick(), tick: 0, cursors, agreed: 0 })
+        Ok(Replay { machine, vocabulary, ends, tick: 0, cursors, agreed: 0 })
     }
 
     /// Compiles no step.
@@ -75,7 +73,7 @@ impl Replay {
         }
         let unknown = |reason: String| Ok(Some(Verdict::Unknown { events: self.agreed, reason }));
         if !recording.is_whole() {
-            return unknown(format!("the recording has a gap, or ends early, after tick {end}"));
+            return unknown(format!("{}; it is compared up to tick {end}", missing(recording)));
         }
         // What tasks do in order to stop is not part of a run of the model.
         let end_ns = end * recording.tick_ns;
@@ -83,24 +81,25 @@ impl Replay {
         if tracks.iter().zip(&self.cursors).any(|(events, cursor)| compared(events) != *cursor) {
             return unknown("an event was not come to".to_string());
         }
-        Ok(Some(conforms(recording, self.agreed, self.machine.steps())))
+        Ok(Some(conforms(recording, self.agreed, self.tick.unsigned_abs())))
     }
 
     /// The step of a tick; none: it agrees.
     fn step(&mut self, tracks: &[&[Event]], recording: &Recording) -> Option<Verdict> {
         let tick = self.tick;
-        let made = match self.procedure {
-            None => self.machine.step(&mut Longest).map(|_| ()),
-            Some(procedure) => {
-                self.machine.prepare_procedure(procedure, &mut Longest).map(|()| _ = self.machine.commit())
+        let made = self.machine.step(&mut Longest).and_then(|_| {
+            let claims = self.vocabulary.claims(&self.machine, &self.vocabulary.changes(&self.machine));
+            let unlike = self.ends.unlike(&mut self.machine, &claims)?;
+            Ok((claims, unlike))
+        });
+        let (claims, unlike) = match made {
+            Ok(made) => made,
+            Err(fault) => {
+                let fault = fault.show(self.machine.program()).to_string();
+                let reason = format!("the model cannot make the step of tick {tick}: {fault}");
+                return Some(Verdict::Unknown { events: self.agreed, reason });
             }
         };
-        if let Err(fault) = made {
-            let fault = fault.show(self.machine.program()).to_string();
-            let reason = format!("the model cannot make the step of tick {tick}: {fault}");
-            return Some(Verdict::Unknown { events: self.agreed, reason });
-        }
-        let claims = self.vocabulary.claims(&self.machine, &self.vocabulary.changes(&self.machine));
         for component in 0..self.vocabulary.components.len() {
             let events = &tracks[component][self.cursors[component]..];
             let count = events.iter().take_while(|event| event.time_ns / recording.tick_ns == tick).count();
@@ -119,23 +118,38 @@ impl Replay {
             if let Some(at) = differs(recorded, &own) {
                 let event = recorded.get(at).cloned();
                 let claims: Vec<Claim> = own[at.min(own.len())..].iter().map(|claim| (*claim).clone()).collect();
-                let state = self.vocabulary.state(&self.machine, component, &objects(event.as_ref(), &claims));
-                return Some(Verdict::Parts(Box::new(Parted {
-                    tick,
-                    task: task.clone(),
-                    reason: out_of_turn(event.as_ref(), &claims),
-                    event,
-                    claims,
-                    decides: false,
-                    agreed: self.agreed,
-                    before: before(&self.vocabulary, tracks, recording, tick),
-                    state,
-                })));
+                let reason = out_of_turn(event.as_ref(), &claims);
+                return Some(self.parted(component, event, claims, reason, (tracks, recording)));
             }
             self.agreed += count;
             self.cursors[component] += count;
         }
-        None
+        let (component, claim, reason) = unlike?;
+        let event = claim.as_ref().map(|claim| Event { time_ns: tick * recording.tick_ns, ..claim.event.clone() });
+        Some(self.parted(component, event, claim.into_iter().collect(), Some(reason), (tracks, recording)))
+    }
+
+    /// A difference in the present tick.
+    fn parted(
+        &self,
+        component: usize,
+        event: Option<Event>,
+        claims: Vec<Claim>,
+        reason: Option<String>,
+        (tracks, recording): (&[&[Event]], &Recording),
+    ) -> Verdict {
+        let state = self.vocabulary.state(&self.machine, component, &objects(event.as_ref(), &claims));
+        Verdict::Parts(Box::new(Parted {
+            tick: self.tick,
+            task: self.vocabulary.components[component].name.clone(),
+            reason,
+            event,
+            claims,
+            decides: false,
+            agreed: self.agreed,
+            before: before(&self.vocabulary, tracks, recording, self.tick),
+            state,
+        }))
     }
 }
 

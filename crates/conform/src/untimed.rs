@@ -2,25 +2,27 @@
 //!
 //! In: the model, and any recording. The model's configuration is changed before the run; its rules are not. Phases
 //! take no time, and between two phases there is a rest, so leaving the one and beginning the next are two steps. The
-//! clock is set to the recorded instant; so is the time that a cycle has waited, if it matters. Then there must be an
-//! order of the tasks' steps, consistent with the recorded times (`order`), in which each step has the events that were
-//! recorded. Among overlapping actions, every order is tried.
+//! clock is set to the recorded instant; so is the time that a cycle has waited, if it matters. A step is one of the
+//! model's main rule in which one task has its turn (`single`). Then there must be an order of the tasks' steps, consistent
+//! with the recorded times (`order`), in which each step has the events that were recorded. Among overlapping actions,
+//! every order is tried.
 
 use std::collections::VecDeque;
 use std::sync::Arc;
 
-use machine::{
-    Change, Choice, EngineChoice, Environment, Fault, Interrupt, Limits, LocationRef, Machine, Mark, TimeUnit, Value,
-};
-use program::{DomainId, ProcedureId, Program, Slot};
+use machine::{Change, EngineChoice, Fault, Interrupt, Limits, Machine, Mark, Value};
+use program::{ProcedureId, Slot};
 
 use crate::Verdict;
-use crate::evidence::{Claim, Parted, Recorded, conforms, interrupted, objects, out_of_turn};
+use crate::ends::Ends;
+use crate::evidence::{Claim, Parted, Recorded, conforms, interrupted, missing, objects, out_of_turn};
 use crate::order::{Lane, Place, Span};
+use crate::single::{Chosen, oversteps};
 use crate::steps::Steps;
 use crate::timed::tracks;
 use crate::vocabulary::{Named, Vocabulary};
 use crate::waiting::Pace;
+use crate::way::Way;
 use recording::{Event, Kind, Recording};
 
 /// LIMIT: this many decisions are kept to go back to.
@@ -40,6 +42,7 @@ const SHOWN: usize = 12;
 pub struct Replay {
     machine: Machine,
     vocabulary: Vocabulary,
+    ends: Ends,
     step: ProcedureId,
     tick_ns: i64,
     pace: Pace,
@@ -80,44 +83,22 @@ impl From<Box<Parted>> for Stop {
     }
 }
 
-/// Chooses which component steps, and gives nothing else.
-struct Chosen<'a> {
-    scheduler: &'a Value,
-    made: bool,
-}
-
-impl Environment for Chosen<'_> {
-    fn monitored(&mut self, program: &Program, location: LocationRef<'_>, _: DomainId) -> Result<Value, String> {
-        Err(format!("no value is given for the monitored location {}", location.show(program)))
-    }
-
-    fn choose(&mut self, _: &Program, choice: &Choice<'_>) -> Result<usize, String> {
-        if std::mem::replace(&mut self.made, true) {
-            return Ok(0);
-        }
-        let found = choice.values.iter().position(|candidate| candidate == self.scheduler);
-        found.ok_or("the component is no scheduler of the model".to_string())
-    }
-
-    fn time(&mut self, _: TimeUnit) -> Result<i64, String> {
-        Ok(0)
-    }
-}
-
 impl Replay {
     /// Starts the model, with the steps added to its program, for a recording with this head.
     ///
     /// # Errors
     /// It cannot be replayed, in words.
-    pub fn new(program: &Arc<Program>, limits: Limits, steps: &Steps, head: &Recording) -> Result<Replay, String> {
-        let (mut machine, vocabulary) = steps.start(program, limits)?;
+    pub fn new(limits: Limits, steps: &Steps, head: &Recording) -> Result<Replay, String> {
+        let step = steps.step()?;
+        let (mut machine, vocabulary, ends) = steps.start(Way::Untimed, limits)?;
         let wakes = vocabulary.components.iter().map(|component| vocabulary.wakes(&machine, component));
         let lanes = wakes.map(|wakes| Lane { wakes, ..Lane::default() }).collect();
         steps.loosen(&mut machine)?;
         Ok(Replay {
             machine,
             vocabulary,
-            step: steps.step(),
+            ends,
+            step,
             tick_ns: head.tick_ns,
             pace: Pace::named(&head.pace),
             lanes,
@@ -185,7 +166,7 @@ impl Replay {
             return unknown("an event was not come to".to_string());
         }
         if !recording.is_whole() {
-            return unknown("the recording has a gap, or ends early".to_string());
+            return unknown(missing(recording));
         }
         let failed = |lane: &Lane| lane.last().is_some_and(|event| event.kind == Kind::Faults);
         if let Some(component) = self.lanes.iter().position(failed) {
@@ -309,7 +290,7 @@ impl Replay {
             let changes =
                 self.step(component, tick, ends).map_err(|fault| self.parted(component, Vec::new(), fault))?;
             let claims = self.vocabulary.claims(&self.machine, &changes);
-            debug_assert!(claims.iter().all(|(of, _)| *of == component), "one task steps");
+            self.is_its_own(component, tick, &claims, &changes)?;
             if claims.is_empty() {
                 if self.rests(&changes) {
                     continue;
@@ -323,6 +304,24 @@ impl Replay {
             return self.compare(component, tick, claims);
         }
         Err(self.parted(component, Vec::new(), "the model's task does not come to an action".to_string()).into())
+    }
+
+    /// A step is that of the one component, for a tick, and ends its elaborations as they end in the model.
+    fn is_its_own(
+        &mut self,
+        component: usize,
+        tick: i64,
+        claims: &[(usize, Claim)],
+        changes: &[Change],
+    ) -> Result<(), Box<Parted>> {
+        if let Some((claim, reason)) = oversteps(&self.vocabulary, &self.machine, component, tick, claims, changes) {
+            return Err(self.parted(component, claim.into_iter().collect(), reason));
+        }
+        match self.ends.unlike(&mut self.machine, claims) {
+            Ok(None) => Ok(()),
+            Ok(Some((component, claim, reason))) => Err(self.parted(component, claim.into_iter().collect(), reason)),
+            Err(fault) => Err(self.parted(component, Vec::new(), fault.show(self.machine.program()).to_string())),
+        }
     }
 
     /// Compares the events of a step with the recorded ones.
@@ -479,7 +478,7 @@ impl Replay {
         let known = &self.vocabulary.components[component];
         let clock = self.vocabulary.location(Named::Clock, &[]);
         let period = ends.then(|| self.vocabulary.location(Named::Period, std::slice::from_ref(&known.task)));
-        let mut chosen = Chosen { scheduler: &known.scheduler, made: false };
+        let mut chosen = Chosen::new(&known.scheduler);
         let (machine, step) = (&mut self.machine, self.step);
         let mut make = || -> Result<Vec<Change>, Fault> {
             if machine.value(&clock) != Value::Integer(tick) {

@@ -278,6 +278,11 @@ impl Vocabulary {
         machine.value_at(LocationRef { function: self.function(named), arguments })
     }
 
+    /// All functions of the library that are known here.
+    pub fn functions(&self) -> impl Iterator<Item = FunctionId> {
+        self.functions.iter().copied()
+    }
+
     /// A function of the library.
     pub fn function(&self, named: Named) -> FunctionId {
         self.functions[named as usize]

@@ -7,6 +7,7 @@ mod bounded_systems;
 mod composite_states;
 mod decision;
 mod draw;
+mod held_to_model;
 mod invariants;
 mod jittered_systems;
 mod jobs;

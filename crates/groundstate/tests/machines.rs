@@ -10,7 +10,7 @@ use program::{DomainId, Program};
 use syntax::SourceFile;
 use testkit::Texts;
 
-const TANK: &str = "chart Tank
+pub(super) const TANK: &str = "chart Tank
 system tank
 	sensor level : Integer
 	actuator valve : Boolean
@@ -28,7 +28,7 @@ system tank
 endsystem
 ";
 
-const GAUGE: &str = "asm Gauge
+pub(super) const GAUGE: &str = "asm Gauge
 import StandardLibrary
 signature:
 	monitored level: Integer
@@ -38,7 +38,7 @@ definitions:
 ";
 
 /// Opens the valve for a level that is new and higher than all before.
-const CONTROL: &str = "asm Control
+pub(super) const CONTROL: &str = "asm Control
 import StandardLibrary
 signature:
 	monitored levels: Integer
@@ -61,15 +61,21 @@ impl Loader for Files {
     }
 }
 
-fn model() -> Loaded {
+pub(super) fn model() -> Loaded {
     model_of(TANK, GAUGE, CONTROL)
 }
 
 fn model_of(chart: &str, gauge: &str, control: &str) -> Loaded {
+    edited(chart, gauge, control, &|text| text)
+}
+
+/// The model that is built, with its text changed by hand.
+pub(super) fn edited(chart: &str, gauge: &str, control: &str, edit: &dyn Fn(String) -> String) -> Loaded {
     let mut files = Files(Texts::of([("Gauge.asm", gauge), ("Control.asm", control)]));
     let built = build_chart(SourceFile::new("Tank.chart", chart), "Tank.asm", None, &mut files);
     let text = built.built.unwrap_or_else(|| panic!("{:#?}", built.faults)).text;
-    load(SourceFile::new("Tank.asm", text), &mut files).unwrap_or_else(|faulty| panic!("{:#?}", faulty.diagnostics))
+    load(SourceFile::new("Tank.asm", edit(text)), &mut files)
+        .unwrap_or_else(|faulty| panic!("{:#?}", faulty.diagnostics))
 }
 
 /// The level is the number of the tick.
@@ -94,7 +100,7 @@ const TICK_NS: i64 = 1_000_000;
 
 /// A run of the model as a program that follows it would record it, and all that its machines decide. What goes through the channel has
 /// so many parts.
-fn recorded(loaded: &Loaded, width: usize) -> Recording {
+pub(super) fn recorded(loaded: &Loaded, width: usize) -> Recording {
     let program = &loaded.program;
     let mut level = Rising(0);
     let mut run = Run::start(program, Limits::default(), &mut level).expect("it starts");

@@ -166,7 +166,7 @@ pub struct Recording {
     pub bounds: Vec<Bounded>,
     /// Why the run ended early, in words, if a task failed or hung; known once the log is written to its end.
     pub failure: Option<String>,
-    /// The log was written to its end.
+    /// The file is there to its end, and says there how the run ended.
     pub ended: bool,
     /// All events before this instant have been read.
     pub horizon_ns: Option<i64>,

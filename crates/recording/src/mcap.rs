@@ -3,7 +3,7 @@
 //! Reads what `cpp/include/groundstate/recorder.hpp` writes: records and uncompressed chunks, from the front, so a file
 //! that ends early gives everything before its end. Checksums are checked wherever the file has them. INVARIANT: the
 //! events of a track are in the task's order without a gap, and their instants do not go back; what comes after a lost
-//! event is left out, and the track says so.
+//! event is left out, and the track says so. Only a file that is there to its last byte has an end.
 
 use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
@@ -23,7 +23,7 @@ const MAGIC: &[u8] = b"\x89MCAP0\r\n";
 /// The footer up to its checksum, which covers it, with what stands before it of every record.
 const FOOTER: usize = 9 + 16;
 
-/// What the end of a log says of bounds, each by its number.
+/// What the end of a log says of bounds, each by its number. Where a task hung, its counts may be read while it counts.
 fn bounds(values: &BTreeMap<&str, &str>) -> Result<Vec<Bounded>, Malformed> {
     let of = |number: usize| {
         let text = |what: &str| values.get(format!("{what} {number}").as_str()).copied();
@@ -47,7 +47,18 @@ fn bounds(values: &BTreeMap<&str, &str>) -> Result<Vec<Bounded>, Malformed> {
     if values.keys().filter(counted).count() != 6 * bounds.len() {
         return malformed(format!("it does not say whole and in numbers what was counted of bound {}", bounds.len()));
     }
-    Ok(bounds)
+    let is_at_rest = values.get("outcome") != Some(&"hung");
+    match bounds.iter().find_map(impossible).filter(|_| is_at_rest) {
+        Some(words) => malformed(format!("its end contradicts itself: {words}")),
+        None => Ok(bounds),
+    }
+}
+
+/// Why nothing can have been counted so; the limit itself is not asked.
+fn impossible(bound: &Bounded) -> Option<String> {
+    let Bounded { what, seen, below, beyond, .. } = bound;
+    (bound.outside() > *seen)
+        .then(|| format!("of {what} it counts {below} values below the bound and {beyond} beyond it, and saw {seen}"))
 }
 
 fn malformed<T>(words: impl Into<String>) -> Result<T, Malformed> {
@@ -130,6 +141,10 @@ pub struct Reader {
     place: Place,
     /// Of all bytes of the present section so far.
     sum: Checksum,
+    /// The end of the run was told; what the file itself ends with may still be missing.
+    is_told: bool,
+    /// For each track, the number of the event that was read last, whether it was kept or not.
+    orders: Vec<Option<u64>>,
 }
 
 /// Where in a file the reader is.
@@ -140,6 +155,8 @@ enum Place {
     Data,
     /// Everything is said again.
     Summary,
+    /// The bytes of [`MAGIC`] once more.
+    Last,
     Behind,
 }
 
@@ -186,9 +203,7 @@ impl Reader {
         if self.recording.tick_ns <= 0 {
             return malformed("it is not the recording of a generated program");
         }
-        // What has no end may lack more than it tells.
-        let ended = self.recording.ended && self.place != Place::Data;
-        Ok(Recording { ended, ..self.recording })
+        Ok(self.recording)
     }
 
     /// Reads as many whole records as there are; gives their number of bytes.
@@ -202,7 +217,7 @@ impl Reader {
             self.sum.add(MAGIC);
             self.place = Place::Data;
         }
-        while self.place != Place::Behind {
+        while !matches!(self.place, Place::Last | Place::Behind) {
             let before = cursor.0;
             let Some((code, content)) = cursor.record() else { break };
             let bytes = &before[..before.len() - cursor.0.len()];
@@ -217,7 +232,7 @@ impl Reader {
                     self.sum.add(&bytes[..FOOTER.min(bytes.len())]);
                     let stated = Cursor(content.get(16..).unwrap_or_default()).number::<4>().unwrap_or(0) as u32;
                     agree(stated, self.sum.value(), "the file's summary")?;
-                    self.place = Place::Behind;
+                    self.place = Place::Last;
                 }
                 (Place::Summary, _) => self.sum.add(bytes),
                 _ => {
@@ -226,7 +241,18 @@ impl Reader {
                 }
             }
         }
-        if self.place == Place::Behind { Ok(all.len()) } else { Ok(all.len() - cursor.0.len()) }
+        if self.place == Place::Last {
+            if cursor.0.len() < MAGIC.len() && MAGIC.starts_with(cursor.0) {
+                return Ok(all.len() - cursor.0.len());
+            }
+            cursor = Cursor(cursor.0.strip_prefix(MAGIC).ok_or(Malformed("its last bytes are damaged".to_string()))?);
+            self.place = Place::Behind;
+            self.recording.ended = self.is_told;
+        }
+        match self.place == Place::Behind && !cursor.0.is_empty() {
+            true => malformed("something follows the end of the file"),
+            false => Ok(all.len() - cursor.0.len()),
+        }
     }
 
     /// What has come so far: the run's head first, then its events.
@@ -234,9 +260,9 @@ impl Reader {
         &self.recording
     }
 
-    /// Whether the end of the data has come; nothing new follows it.
+    /// Whether the file is there to its end; nothing follows it.
     pub fn has_ended(&self) -> bool {
-        matches!(self.place, Place::Summary | Place::Behind)
+        self.place == Place::Behind
     }
 
     fn record(&mut self, code: u8, content: &[u8]) -> Result<(), Malformed> {
@@ -300,6 +326,7 @@ impl Reader {
         let mut track = Track { task: task.to_string(), ..Track::default() };
         time(&self.timing, &mut track)?;
         self.recording.tracks.push(track);
+        self.orders.push(None);
         Ok(())
     }
 
@@ -327,19 +354,29 @@ impl Reader {
                 if stopped_ns.is_none() || recording.stopped_ns.is_some_and(|told| Some(told) != stopped_ns) {
                     return malformed("it does not say when the tasks were asked to stop, or says it in two ways");
                 }
-                if recording.ended {
+                if self.is_told {
                     return malformed("it has two ends");
                 }
                 recording.stopped_ns = stopped_ns;
                 if name == "end" {
-                    recording.ended = true;
+                    self.is_told = true;
                     recording.bounds = bounds(values)?;
                     recording.failure = failure(values);
-                    // The program counts what it lost; what is told of the tasks' numbers does not undo that.
-                    let lost = !matches!(text("lost"), "" | "0");
-                    for track in &mut recording.tracks {
-                        let all: usize = text(&format!("events {}", track.task)).parse().unwrap_or(usize::MAX);
-                        track.lost |= lost || all != track.events.len() + track.decisions.len();
+                    let Ok(lost) = text("lost").parse::<u64>() else {
+                        return malformed("its end does not say in a number how many events were lost");
+                    };
+                    for (track, last) in recording.tracks.iter_mut().zip(&self.orders) {
+                        let task = &track.task;
+                        let Ok(all) = text(&format!("events {task}")).parse::<u64>() else {
+                            return malformed(format!("its end does not say in a number how many events {task} had"));
+                        };
+                        if let Some(last) = last.filter(|last| *last >= all) {
+                            let words =
+                                format!("{task} had {all} events, and event {last} of it, counted from 0, is there");
+                            return malformed(format!("its end contradicts what comes before: {words}"));
+                        }
+                        // The program counts what it lost; what is told of the tasks' numbers does not undo that.
+                        track.lost |= lost > 0 || all != (track.events.len() + track.decisions.len()) as u64;
                     }
                 }
             }
@@ -354,18 +391,26 @@ impl Reader {
         // An instant before the beginning is a number that no run reaches: as a signed number, it is negative.
         let time_ns = cursor.number::<8>()? as i64;
         cursor.number::<8>()?;
-        let Some(track) = self.channels.get(&channel) else {
+        let Some(index) = self.channels.get(&channel) else {
             return Some(malformed("a message has no channel"));
         };
-        if self.recording.ended {
+        if self.is_told {
             return Some(malformed("an event comes behind the end of the run"));
         }
         // An event that comes before the horizon after all is lost for a reader that has gone on.
         let late = self.recording.horizon_ns.is_some_and(|horizon| time_ns < horizon);
-        let track = &mut self.recording.tracks[*track];
+        let track = &mut self.recording.tracks[*index];
         let Ok(said) = serde_json::from_slice::<Said<'_>>(cursor.0) else {
             return Some(malformed("a message is no event"));
         };
+        // Lost events leave a gap in the numbers; none goes back.
+        if let Some(last) = self.orders[*index].replace(said.order).filter(|last| said.order <= *last) {
+            let (task, order) = (&track.task, said.order);
+            return Some(match order == last {
+                true => malformed(format!("event {order} of {task} is there twice")),
+                false => malformed(format!("the events of {task} are out of order: {order} comes after {last}")),
+            });
+        }
         if track.lost || late || said.order != (track.events.len() + track.decisions.len()) as u64 {
             track.lost = true;
             return Some(Ok(()));

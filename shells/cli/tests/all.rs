@@ -4,6 +4,7 @@
 mod bad_input;
 mod bench;
 mod committed_programs;
+mod conformance;
 mod dap;
 mod dap_disorder;
 mod dap_points;

@@ -199,3 +199,40 @@ fn an_age_is_told_with_its_channels() {
     assert_eq!(age(&[]).shown(), "age from eye to arm");
     assert_eq!(age(&["codes", "orders"]).shown(), "age from eye to arm over codes, orders");
 }
+
+/// What of these counts cannot be: seen, below, beyond, greatest.
+fn counted(limit: &str, what: &str, [seen, below, beyond]: [u64; 3], greatest: Greatest) -> String {
+    let bound = Bounded { what: what.to_string(), limit: limit.to_string(), seen, below, beyond, greatest };
+    let recording = Recording { bounds: vec![bound], ended: true, ..Recording::default() };
+    let failed = Recording { failure: Some("a task hung".to_string()), ..recording.clone() };
+    assert_eq!(contradiction(&failed), None);
+    contradiction(&recording).unwrap_or_default()
+}
+
+#[test]
+fn what_is_counted_fits_together() {
+    let ms = |ms: u64| Greatest::Time(ms * 1_000_000);
+    let age = |counts: [u64; 3], greatest: Greatest| counted("within 100 ms", "age from a to b", counts, greatest);
+    for (counts, greatest) in [([0, 0, 0], 0), ([5, 0, 0], 100), ([5, 0, 5], 101), ([5, 0, 1], 7000)] {
+        assert_eq!(age(counts, ms(greatest)), "", "{counts:?}");
+    }
+    let of = "of age from a to b (within 100 ms)";
+    assert_eq!(age([5, 0, 0], ms(5000)), format!("{of} no value is beyond, and the greatest is 5000 ms"));
+    assert_eq!(age([5, 0, 1], ms(100)), format!("{of} some values are beyond, and the greatest is 100 ms"));
+    assert_eq!(age([0, 0, 0], ms(1)), format!("{of} nothing was seen, and the greatest value is 1 ms"));
+    assert_eq!(age([5, 1, 0], ms(9)), format!("{of} 1 value is below, and there is no least one"));
+    assert_eq!(age([5, 0, 0], Greatest::Number(3)), format!("{of} the greatest value is no length of time"));
+    let look = |counts: [u64; 3], greatest: Greatest| counted("3..9 ms", "look of camera", counts, greatest);
+    for (counts, greatest) in [([5, 0, 0], 9), ([5, 4, 0], 3), ([5, 5, 0], 2), ([5, 2, 1], 10)] {
+        assert_eq!(look(counts, ms(greatest)), "", "{counts:?}");
+    }
+    let of = "of look of camera (3..9 ms)";
+    assert_eq!(look([5, 4, 0], ms(2)), format!("{of} 4 values are below, of 5, and the greatest is 2 ms"));
+    assert_eq!(look([5, 5, 0], ms(8)), format!("{of} 5 values are below, of 5, and the greatest is 8 ms"));
+    let missed = |counts: [u64; 3], greatest: Greatest| counted("1 of 20", "deadlines missed by a", counts, greatest);
+    assert_eq!(missed([40, 0, 0], Greatest::Number(1)), "");
+    assert_eq!(missed([40, 0, 2], Greatest::Number(2)), "");
+    let of = "of deadlines missed by a (1 of 20)";
+    assert_eq!(missed([40, 0, 0], Greatest::Number(2)), format!("{of} no value is beyond, and the greatest is 2"));
+    assert_eq!(missed([40, 0, 0], ms(1)), format!("{of} the greatest value is a length of time"));
+}

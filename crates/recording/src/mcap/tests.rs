@@ -45,6 +45,11 @@ fn ended(data: Vec<u8>) -> Vec<u8> {
     [data, record(0x0f, &sum), summary, footer[..FOOTER].to_vec(), own.to_vec(), MAGIC.to_vec()].concat()
 }
 
+/// The end of a run that was stopped at 7 ns and lost nothing.
+fn end(more: &[(&str, &str)]) -> Vec<u8> {
+    about("end", &[&[("stopped_ns", "7"), ("lost", "0")], more].concat())
+}
+
 /// Two events of a task, of a run that was stopped and has its end.
 fn whole() -> Vec<u8> {
     let data = [
@@ -52,7 +57,7 @@ fn whole() -> Vec<u8> {
         channel(0, "/task"),
         chunk(&[event(0, 0, 5), event(0, 1, 9)].concat()),
         about("stop", &[("stopped_ns", "7")]),
-        about("end", &[("stopped_ns", "7"), ("events task", "2")]),
+        end(&[("events task", "2")]),
     ];
     ended(data.concat())
 }
@@ -126,7 +131,7 @@ fn a_changed_byte_is_noticed() {
     let whole = whole();
     let read = Recording::read(&whole).expect("a recording");
     let behind = whole.len() - ended(Vec::new()).len();
-    for at in 0..whole.len() - MAGIC.len() {
+    for at in 0..whole.len() {
         for mask in [0x01, 0x80, 0xff] {
             let mut damaged = whole.clone();
             damaged[at] ^= mask;
@@ -137,8 +142,19 @@ fn a_changed_byte_is_noticed() {
             );
         }
     }
-    let cut = Recording::read(&whole[..whole.len() / 2]).expect("a beginning");
-    assert!(!cut.is_whole());
+}
+
+/// Wherever a file is cut: within the data, the summary that says all again, or the last bytes.
+#[test]
+fn a_file_that_is_cut_has_no_end() {
+    let whole = whole();
+    for length in MAGIC.len() + 9..whole.len() {
+        let mut reader = Reader::default();
+        reader.feed(&whole[..length]).expect("a beginning");
+        assert!(!reader.has_ended() && !reader.recording().is_whole(), "{length} bytes");
+        assert!(reader.finish().is_ok_and(|cut| !cut.is_whole()) || length < head().len(), "{length} bytes");
+    }
+    refused(&[&whole[..], &whole].concat(), "something follows the end of the file");
 }
 
 #[test]
@@ -150,18 +166,52 @@ fn a_gap_in_the_order_ends_a_track() {
 }
 
 #[test]
+fn events_that_are_out_of_order_are_no_gap() {
+    let check = |orders: &[u32], expect: &str| {
+        let events: Vec<u8> = orders.iter().flat_map(|order| event(0, *order, 5)).collect();
+        refused(&[head(), channel(0, "/task"), chunk(&events)].concat(), expect);
+    };
+    check(&[0, 2, 1, 3], "the events of task are out of order: 1 comes after 2");
+    check(&[1, 0], "the events of task are out of order: 0 comes after 1");
+    check(&[0, 1, 1, 2], "event 1 of task is there twice");
+    check(&[0, 5, 3], "the events of task are out of order: 3 comes after 5");
+}
+
+#[test]
 fn what_the_program_lost_is_lost() {
-    for (lost, is_whole) in [("0", true), ("5", false), ("?", false)] {
-        let end = about("end", &[("stopped_ns", "7"), ("events task", "1"), ("lost", lost)]);
-        let bytes = ended([head(), channel(1, "/task"), event(1, 0, 5), end].concat());
-        assert_eq!(Recording::read(&bytes).expect("it can be read").is_whole(), is_whole, "{lost}");
+    let read = |lost: &[(&str, &str)]| {
+        let end = about("end", &[&[("stopped_ns", "7"), ("events task", "1")], lost].concat());
+        Recording::read(&ended([head(), channel(1, "/task"), event(1, 0, 5), end].concat()))
+    };
+    for (lost, is_whole) in [("0", true), ("5", false)] {
+        assert_eq!(read(&[("lost", lost)]).expect("it can be read").is_whole(), is_whole, "{lost}");
+    }
+    let words = "its end does not say in a number how many events were lost";
+    for wrong in [&[][..], &[("lost", "?")], &[("lost", "-1")], &[("lost", "")]] {
+        assert_eq!(read(wrong), Err(Malformed(words.to_string())), "{wrong:?}");
+    }
+}
+
+#[test]
+fn the_end_counts_the_events_of_each_task() {
+    let read = |events: &[(&str, &str)]| {
+        let all = [event(1, 0, 5), event(1, 1, 6), end(events)].concat();
+        Recording::read(&ended([head(), channel(1, "/task"), all].concat()))
+    };
+    assert!(read(&[("events task", "2")]).expect("all are there").is_whole());
+    assert!(!read(&[("events task", "3")]).expect("the last one is missing").is_whole());
+    let fewer = "its end contradicts what comes before: task had 1 events, and event 1 of it, counted from 0, is there";
+    assert_eq!(read(&[("events task", "1")]), Err(Malformed(fewer.to_string())));
+    let none = "its end does not say in a number how many events task had";
+    for wrong in [&[][..], &[("events task", "x")], &[("events other", "2")]] {
+        assert_eq!(read(wrong), Err(Malformed(none.to_string())), "{wrong:?}");
     }
 }
 
 #[test]
 fn a_run_that_ended_early_says_why() {
     let check = |more: &[(&str, &str)], expect: Option<&str>| {
-        let end = about("end", &[&[("stopped_ns", "7"), ("events task", "1")], more].concat());
+        let end = end(&[&[("events task", "1")], more].concat());
         let read = Recording::read(&ended([head(), channel(1, "/task"), event(1, 0, 5), end].concat()));
         assert_eq!(read.expect("it can be read").failure.as_deref(), expect);
     };
@@ -235,7 +285,7 @@ fn what_is_said_twice_is_said_once() {
     check(&[channel(0, "/task"), channel(1, "/task")], "two channels have the name task");
     check(&[channel(0, "/task"), channel(0, "/other")], "one channel is both task and other");
     check(&[head()[MAGIC.len()..].to_vec()], "it has two heads");
-    let end = || about("end", &[("stopped_ns", "7"), ("events task", "0")]);
+    let end = || end(&[("events task", "0")]);
     check(&[end(), end()], "it has two ends");
     let two = "it does not say when the tasks were asked to stop, or says it in two ways";
     check(&[about("stop", &[("stopped_ns", "8")]), end()], two);
@@ -277,10 +327,11 @@ fn what_was_counted_of_a_bound_is_whole() {
         ("beyond 0", "2"),
         ("greatest_ns 0", "7"),
     ];
-    let read = |counted: &[(&str, &str)]| {
-        let end = about("end", &[&[("stopped_ns", "7"), ("events task", "0"), ("outcome", "ended")], counted].concat());
+    let read_of = |outcome: &str, counted: &[(&str, &str)]| {
+        let end = end(&[&[("events task", "0"), ("outcome", outcome)], counted].concat());
         Recording::read(&ended([head(), channel(0, "/task"), end].concat()))
     };
+    let read = |counted: &[(&str, &str)]| read_of("ended", counted);
     assert_eq!(read(&counted).expect("whole").bounds[0].outside(), 2);
     for index in 0..counted.len() {
         let missing: Vec<_> =
@@ -290,5 +341,16 @@ fn what_was_counted_of_a_bound_is_whole() {
         let mut damaged = counted;
         damaged[index].1 = "-1";
         assert_eq!(read(&damaged).is_err(), index > 1, "{}", counted[index].0);
+    }
+    // More were outside than were seen.
+    for (below, beyond) in [("0", "6"), ("6", "0"), ("3", "3")] {
+        let mut more = counted;
+        (more[3].1, more[4].1) = (below, beyond);
+        let words = format!(
+            "its end contradicts itself: of a it counts {below} values below the bound and {beyond} beyond it, and saw 5"
+        );
+        assert_eq!(read(&more), Err(Malformed(words)));
+        // What a task counts that hangs may be read while it counts.
+        assert!(read_of("hung", &more).is_ok());
     }
 }
