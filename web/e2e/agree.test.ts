@@ -92,7 +92,7 @@ async function agree(what: string): Promise<string> {
   let reason = ''
   for (let tries = 0; tries < 200; tries++) {
     const [here, shown, now] = [await text(page), await seen(page), file()]
-    const saved = await page.locator('.state-chip', { hasText: 'Saved' }).isVisible()
+    const saved = await page.locator('.state-chip', { hasText: /^Saved$/ }).isVisible()
     const wanted = told(now, shown.shown)
     if (saved && now === here && String(wanted.shapes) === String(shown.shapes) && String(wanted.arrows) === String(shown.arrows)) return now
     reason = `${what}\nfile:\n${now}\neditor:\n${here}\npicture: ${shown.shapes.join(', ')}; ${shown.arrows.join('; ')}\ntext: ${wanted.arrows.join('; ')}\nsaved: ${saved}`

@@ -83,7 +83,7 @@ test('the model of a chart that has changed is not taken for the chart’s', asy
   await page.keyboard.press('Home')
   await page.keyboard.press('Shift+End')
   await page.keyboard.type('pressed no -> on')
-  await page.locator('.state-chip', { hasText: 'Saved' }).waitFor()
+  await page.locator('.state-chip', { hasText: /^Saved$/ }).waitFor()
   await start('Verify')
   const dialog = page.getByRole('dialog', { name: 'Lamp.asm is not the model of Lamp.chart as it is drawn' })
   await dialog.waitFor()
@@ -101,6 +101,8 @@ test('the model of a chart that has changed is not taken for the chart’s', asy
   await head().locator('.currency', { hasText: 'an older model than the chart’s' }).waitFor()
   await start('Verify')
   await dialog.getByRole('button', { name: 'Build and verify' }).click()
+  // Verified twice, built, verified.
+  await page.locator('.job-list li').nth(3).waitFor({ timeout: 40_000 })
   await head().locator('h3', { hasText: 'Verify' }).waitFor()
   await head().locator('.outcome.good, .outcome.bad').first().waitFor({ timeout: 40_000 })
   expect(await head().locator('.currency').count()).toBe(0)

@@ -31,7 +31,7 @@ const trouble: Trouble = { told: [] }
 
 const path = (name: string): string => join(studio.folder, name)
 const file = (name: string): string => (existsSync(path(name)) ? readFileSync(path(name), 'utf8') : '')
-const saved = (): Promise<void> => page.locator('.state-chip', { hasText: 'Saved' }).waitFor()
+const saved = (): Promise<void> => page.locator('.state-chip', { hasText: /^Saved$/ }).waitFor()
 
 async function until(holds: () => boolean | Promise<boolean>, what: string | (() => string)): Promise<void> {
   for (let tries = 0; tries < 160; tries++) {

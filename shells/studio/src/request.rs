@@ -61,7 +61,9 @@ pub fn answer(
                 Value::String(hash) => Some(hash.as_str()),
                 _ => return Err("`base` is a hash or null".to_string()),
             };
-            let wrote = studio.store().write(&studio.folder, path, content, base)?;
+            // Others are told in the order of the writing.
+            let mut store = studio.store();
+            let wrote = store.write(&studio.folder, path, content, base)?;
             match &wrote {
                 crate::store::Wrote::As(hash) => {
                     changed(studio, path, Some((content.to_string(), hash.clone())), Some(tab));
@@ -71,6 +73,7 @@ pub fn answer(
                 }
                 crate::store::Wrote::Not { .. } => {}
             }
+            drop(store);
             if base.is_none() {
                 studio.tell("studio/files", &json!({ "files": files(&studio.folder) }), None);
             }

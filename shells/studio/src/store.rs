@@ -21,8 +21,9 @@ pub struct Store {
     former: BTreeMap<String, Arc<str>>,
     order: VecDeque<String>,
     bytes: usize,
-    /// The hash of each file as browsers know it last.
-    seen: BTreeMap<String, Option<String>>,
+    /// The hash of each file that somebody asked for, as all browsers were told of it last. INVARIANT: whoever reads a file that was
+    /// changed meanwhile keeps the news from nobody else.
+    told: BTreeMap<String, Option<String>>,
 }
 
 /// What became of a text.
@@ -55,18 +56,14 @@ pub fn hash(text: &str) -> String {
 }
 
 impl Store {
-    /// The text of a file and its hash, known from now on; `None` if it is not there.
+    /// The text of a file and its hash; `None` if it is not there. From now on [`Store::changed`] knows of it.
     ///
     /// # Errors
     /// As [`Folder::read`].
     pub fn read(&mut self, folder: &Folder, path: &str) -> Result<Option<(String, String)>, String> {
-        let Some(text) = folder.read(path)? else {
-            self.seen.insert(path.to_string(), None);
-            return Ok(None);
-        };
-        let hash = self.know(&text);
-        self.seen.insert(path.to_string(), Some(hash.clone()));
-        Ok(Some((text, hash)))
+        let present = folder.read(path)?.map(|text| (self.know(&text), text));
+        self.told.entry(path.to_string()).or_insert_with(|| present.as_ref().map(|(hash, _)| hash.clone()));
+        Ok(present.map(|(hash, text)| (text, hash)))
     }
 
     /// Writes a text that was made from the one with the hash `base`; without one, it is a new file.
@@ -92,7 +89,6 @@ impl Store {
             Some(known) => diffy::merge(known, text, &theirs),
             None => diffy::merge("", text, &theirs),
         };
-        self.seen.insert(path.to_string(), Some(hash.clone()));
         match (merged, known) {
             (Ok(merged), Some(_)) => {
                 let hash = self.put(folder, path, &merged)?;
@@ -102,10 +98,11 @@ impl Store {
         }
     }
 
+    /// Whoever writes a text tells it the others.
     fn put(&mut self, folder: &Folder, path: &str, text: &str) -> Result<String, String> {
         folder.write(path, text)?;
         let hash = self.know(text);
-        self.seen.insert(path.to_string(), Some(hash.clone()));
+        self.told.insert(path.to_string(), Some(hash.clone()));
         Ok(hash)
     }
 
@@ -126,10 +123,10 @@ impl Store {
         hash
     }
 
-    /// The files that are not what browsers know of them, with what they are now.
+    /// The files that are not what browsers were told, with what they are now: to be told all of them.
     pub fn changed(&mut self, folder: &Folder) -> Vec<(String, Option<(String, String)>)> {
         let mut news = Vec::new();
-        for (path, known) in self.seen.clone() {
+        for (path, known) in self.told.clone() {
             // What cannot be read now is looked at again.
             let Ok(text) = folder.read(&path) else { continue };
             let present = text.as_ref().map(|text| hash(text));
@@ -137,7 +134,7 @@ impl Store {
                 if let Some(text) = &text {
                     self.know(text);
                 }
-                self.seen.insert(path.clone(), present.clone());
+                self.told.insert(path.clone(), present.clone());
                 news.push((path, text.zip(present)));
             }
         }
@@ -148,6 +145,32 @@ impl Store {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_reader_keeps_no_news_from_others() {
+        let place = tempfile::tempdir().expect("a folder");
+        let folder = Folder::at(place.path()).expect("it is one");
+        let mut store = Store::default();
+        let outside = |text: &str| std::fs::write(place.path().join("a.asm"), text).expect("written");
+        let now = |text: &str| (text.to_string(), hash(text));
+        outside("1\n");
+        let first = store.read(&folder, "a.asm").expect("read").expect("there");
+        assert_eq!(first, now("1\n"));
+        // Another one reads it before the watcher has looked.
+        outside("2\n");
+        assert_eq!(store.read(&folder, "a.asm").expect("read"), Some(now("2\n")));
+        assert_eq!(store.changed(&folder), [("a.asm".to_string(), Some(now("2\n")))]);
+        assert_eq!(store.changed(&folder), []);
+        // Another one's text is refused for it.
+        outside("3\n");
+        let refused = store.write(&folder, "a.asm", "4\n", Some(&first.1)).expect("told");
+        assert!(matches!(refused, Wrote::Not { .. }), "{refused:?}");
+        assert_eq!(store.changed(&folder), [("a.asm".to_string(), Some(now("3\n")))]);
+        // It goes while somebody asks for it.
+        std::fs::remove_file(place.path().join("a.asm")).expect("removed");
+        assert_eq!(store.read(&folder, "a.asm").expect("read"), None);
+        assert_eq!(store.changed(&folder), [("a.asm".to_string(), None)]);
+    }
 
     #[test]
     fn nobodys_words_are_lost() {

@@ -59,10 +59,12 @@ fn follow(studio: &Studio, happened: &Receiver<()>) {
                 Err(RecvTimeoutError::Disconnected) => return,
             }
         }
-        let news = studio.store().changed(&studio.folder);
-        for (path, now) in news {
+        // What is written meanwhile is told after this, not before.
+        let mut store = studio.store();
+        for (path, now) in store.changed(&studio.folder) {
             changed(studio, &path, now, None);
         }
+        drop(store);
         let present = files(&studio.folder);
         if present != listed {
             studio.tell("studio/files", &json!({ "files": present }), None);
