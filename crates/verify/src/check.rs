@@ -22,6 +22,7 @@ use crate::question::{Question, Subject};
 use crate::report::{Expected, NoStart, Outcome, Reason, Report, Verdict};
 use crate::runs::outcome::{OfRuns, Why};
 use crate::runs::{RunPlan, decide_after};
+use crate::solver::method::Lacking;
 use crate::target::Target;
 use crate::temporal::fairness::AgentFairness;
 use crate::walk::Walk;
@@ -178,11 +179,12 @@ fn reasons(search: &Ended, question: &Question, options: &Options) -> Vec<Reason
     reasons.extend(options.bounds.keys().copied().map(Reason::Bounded));
     // A search that has ended has met all initial states that the assumptions admit.
     let has_searched = !matches!(search.engine, EngineKind::Solver(_)) && search.stop.is_none();
-    if search.vacuous || has_searched && search.progress.states == 0 && search.unbounded.is_empty() {
+    if search.none == Some(Lacking::Start) || has_searched && search.progress.states == 0 && search.unbounded.is_empty()
+    {
         reasons.insert(Reason::Vacuous);
     }
     let Progress { states, blocked, .. } = search.progress;
-    if has_searched && states > 0 && blocked == states {
+    if search.none == Some(Lacking::Step) || has_searched && states > 0 && blocked == states {
         reasons.insert(Reason::Stepless);
     }
     for condition in &question.plan.assumed {

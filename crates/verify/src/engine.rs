@@ -19,7 +19,7 @@ use crate::partial_order::Unreduced;
 use crate::plan::Plan;
 use crate::progress::{Progress, Stop};
 use crate::report::NoStart;
-use crate::solver::method::{Left, Proof, Solved};
+use crate::solver::method::{Lacking, Left, Proof, Solved};
 use crate::symmetry::Symmetry;
 use crate::target::Target;
 use crate::trace::Trace;
@@ -74,8 +74,8 @@ pub(crate) struct Ended {
     pub walk: Option<Walk>,
     /// The engine.
     pub engine: EngineKind,
-    /// No initial state satisfies the assumptions.
-    pub vacuous: bool,
+    /// What the assumptions leave nothing of, as a solver found.
+    pub none: Option<Lacking>,
     /// Targets that a solver proved unreachable.
     pub proved: BTreeMap<Target, Proof>,
     /// Targets that a solver left open.
@@ -101,7 +101,7 @@ impl Ended {
             executed: Vec::new(),
             walk: None,
             engine,
-            vacuous: false,
+            none: None,
             proved: BTreeMap::new(),
             left: BTreeMap::new(),
             solver: None,
@@ -128,7 +128,7 @@ impl Ended {
             self.found.entry(target).or_insert(trace);
         }
         self.proved = solved.proved;
-        self.vacuous |= solved.vacuous;
+        self.none = self.none.or(solved.none);
         self.left = solved.left;
         self.solver = Some(solved.solver);
     }

@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 
 use syntax::SourceFile;
 use testkit::{Random, sample};
-use verify::{Options, Outcome, Reason, Storage, verify};
+use verify::{EngineKind, Options, Outcome, Reason, Storage, verify};
 
 use crate::models::lowered;
 
@@ -84,6 +84,7 @@ fn states_of_which_assumptions_leave_no_step_are_counted() {
                 Options::default(),
                 Options { workers: 2, alone: Some(0), ..Options::default() },
                 Options { storage: Storage::Compact, ..Options::default() },
+                Options { engine: EngineKind::Symbolic, max_bytes: 8 << 20, ..Options::default() },
             ] {
                 let report = verify(&program, &options, &mut |_| true).expect("the first place is assumed");
                 let progress = report.progress;
@@ -121,17 +122,17 @@ fn assumptions_that_leave_no_step() {
              \tCTLSPEC ctlSpec_low: ag(level < 2)\n\tmain rule r_Main = level := 1 - level\ndefault init s0:\n\tfunction level = 0\n"
         )
     };
-    let of = |assumed: &str, workers: usize| {
-        let options = Options { workers, ..Options::default() };
+    let of = |assumed: &str, engine: EngineKind, workers: usize| {
+        let options = Options { engine, workers, ..Options::default() };
         let report = verify(&lowered(SourceFile::new("Level.asm", model(assumed))), &options, &mut |_| true);
         report.expect("it begins")
     };
-    for workers in [1, 2] {
-        let report = of("go and not go", workers);
+    for (engine, workers) in [(EngineKind::Explicit, 1), (EngineKind::Explicit, 2), (EngineKind::Symbolic, 1)] {
+        let report = of("go and not go", engine, workers);
         let stepless = Outcome::Unknown(vec![Reason::Stepless]);
         assert!(report.verdicts.iter().all(|verdict| verdict.outcome == stepless), "{:?}", report.verdicts);
         assert!(report.unreachable.is_empty());
-        let report = of("go", workers);
+        let report = of("go", engine, workers);
         assert!(report.verdicts.iter().all(|verdict| verdict.outcome == Outcome::Holds), "{:?}", report.verdicts);
     }
 }

@@ -50,14 +50,23 @@ pub enum Left {
     Untold,
 }
 
+/// What there has to be for a proof to say something.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Lacking {
+    /// No initial state satisfies the assumptions.
+    Start,
+    /// No step from one does.
+    Step,
+}
+
 /// The result of a solver.
 #[derive(Debug, Default)]
 pub(crate) struct Solved {
     pub found: BTreeMap<Target, Trace>,
     pub proved: BTreeMap<Target, Proof>,
     pub left: BTreeMap<Target, Left>,
-    /// No initial state satisfies the assumptions.
-    pub vacuous: bool,
+    /// What the assumptions leave nothing of.
+    pub none: Option<Lacking>,
     /// The largest number of steps that was tried.
     pub depth: u64,
     /// The solver.

@@ -19,14 +19,14 @@ use std::sync::Arc;
 use explore::Trouble;
 use program::{Program, PropertyKind};
 pub use solve::Outside;
-use solve::session::{Silence, Solvers, Verdict};
+use solve::session::{Session, Silence, Solvers, Verdict};
 
 use crate::plan::Plan;
 use crate::progress::Progress;
 use crate::target::Target;
 use bounded::Bounded;
 use induction::Induction;
-use method::Solved;
+use method::{Lacking, Solved};
 pub use method::{Left, Method, Proof};
 use relation::{Relation, Unrelated};
 use unrolling::{Patience, Unrolling};
@@ -171,13 +171,11 @@ pub(crate) fn solve(
             .collect();
         by_reachability(&mut provable, &known, told, solvers, &mut patience, &mut proves, &mut told)?;
     }
-    // Without an initial state, everything can be proved. Only assumptions leave none.
+    // Without an initial state, everything can be proved; without a step, much. Only assumptions leave none.
     let assumes = program.properties.iter().any(|property| property.kind == PropertyKind::Invar);
     if assumes && !proves.is_empty() && bounded.found.is_empty() {
-        match Unrolling::new(&exact, solvers.start()?, true).possible(&[], &mut patience) {
-            Ok(Verdict::Possible) => {}
-            Ok(Verdict::Impossible) => solved.vacuous = true,
-            Ok(Verdict::Unknown) => proves.clear(),
+        match lacking(&exact, solvers.start()?, &mut patience) {
+            Ok(none) => solved.none = none,
             Err(silence) => {
                 proves.clear();
                 late = late.or(Some(left_by(silence, 0)));
@@ -205,6 +203,23 @@ pub(crate) fn solve(
     }
     solved.found = bounded.found;
     Ok(solved)
+}
+
+/// What assumptions leave nothing of: an initial state, or a step from one.
+fn lacking(
+    relation: &Relation,
+    session: Box<dyn Session>,
+    patience: &mut Patience<'_>,
+) -> Result<Option<Lacking>, Silence> {
+    let mut unrolling = Unrolling::new(relation, session, true);
+    for none in [Lacking::Start, Lacking::Step] {
+        match unrolling.possible(&[], patience)? {
+            Verdict::Possible => unrolling.step(),
+            Verdict::Impossible => return Ok(Some(none)),
+            Verdict::Unknown => return Err(Silence::Late),
+        }
+    }
+    Ok(None)
 }
 
 fn left_by(silence: Silence, times: usize) -> Left {

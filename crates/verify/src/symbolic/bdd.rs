@@ -103,13 +103,10 @@ impl Diagrams {
         Ok(set.and(&values)?)
     }
 
-    /// The states of a set that these overwrites turn into a given state.
-    pub fn preimage(&mut self, set: &Set, overwrites: &[Overwrite], of: &[u64]) -> Result<Set, Full> {
-        if overwrites.iter().any(|write| of[write.word as usize] & write.clear != write.set) {
-            return Ok(self.empty());
-        }
-        let (variables, _) = self.write(overwrites)?;
-        Ok(set.and(&self.state(of)?.exists(&variables)?)?)
+    /// The states of a set that these overwrites turn into one of another set.
+    pub fn preimage(&mut self, set: &Set, overwrites: &[Overwrite], of: &Set) -> Result<Set, Full> {
+        let (variables, values) = self.write(overwrites)?;
+        Ok(set.and(&of.and(&values)?.exists(&variables)?)?)
     }
 
     fn write(&mut self, overwrites: &[Overwrite]) -> Result<(Set, Set), Full> {

@@ -131,6 +131,7 @@ impl Reach {
     fn search(&mut self, plan: &Plan, watch: &mut dyn FnMut(&Progress) -> bool) -> Result<(), Halt> {
         let initial = self.initial(plan)?;
         let reached = self.close(plan, &initial, watch)?;
+        self.count_blocked(plan, &reached)?;
         let targets = self.targets(plan, &reached)?;
         self.locate(plan, initial, targets, watch)
     }
@@ -256,14 +257,49 @@ impl Reach {
             self.explorer.expand_part(part, &mut self.diagrams, set, &mut visit)?;
             return Ok(steps);
         }
+        self.each_alternative(set, &mut visit)?;
+        Ok(steps)
+    }
+
+    /// Visits the alternatives of all steps of a set.
+    fn each_alternative(
+        &mut self,
+        set: &Set,
+        visit: &mut dyn FnMut(&mut Diagrams, &Alternative<'_>, &Set) -> Result<(), Full>,
+    ) -> Result<(), Halt> {
         let mut none = set.clone();
         for part in 0..self.explorer.parts() {
-            if let Some(alive) = self.explorer.expand_part(part, &mut self.diagrams, set, &mut visit)? {
+            if let Some(alive) = self.explorer.expand_part(part, &mut self.diagrams, set, visit)? {
                 none = self.diagrams.minus(&none, &alive)?;
             }
         }
-        self.explorer.expand_otherwise(&mut self.diagrams, &none, &mut visit)?;
-        Ok(steps)
+        self.explorer.expand_otherwise(&mut self.diagrams, &none, visit)?;
+        Ok(())
+    }
+
+    /// Counts the states of which the assumptions leave no step, among all that are reachable: no alternative leads to one of these.
+    fn count_blocked(&mut self, plan: &Plan, reached: &Set) -> Result<(), Halt> {
+        let assumes = !plan.assumed.is_empty() || plan.settings.step_conditions.iter().any(|(_, assumed)| *assumed);
+        if !assumes {
+            return Ok(());
+        }
+        let mut alive = self.diagrams.empty();
+        let mut visit = |sets: &mut Diagrams, alternative: &Alternative<'_>, states: &Set| -> Result<(), Full> {
+            let goes_on = match alternative.kind {
+                AlternativeKind::Next => sets.preimage(states, alternative.overwrites, reached)?,
+                AlternativeKind::Fault(_) | AlternativeKind::Unbounded => states.clone(),
+                AlternativeKind::Excluded => return Ok(()),
+            };
+            alive = sets.union(&alive, &goes_on)?;
+            Ok(())
+        };
+        self.each_alternative(reached, &mut visit)?;
+        let blocked = self.diagrams.minus(reached, &alive)?;
+        let count = self.diagrams.count(&blocked) as u64;
+        // The counts of large sets are rounded.
+        let most = self.progress.states - u64::from(!self.diagrams.is_empty(&alive));
+        self.progress.blocked = count.min(most);
+        Ok(())
     }
 
     /// The targets found in a set of states, and the states with each.
@@ -377,21 +413,16 @@ impl Reach {
     /// A state of a level that leads to a state of the next one.
     fn parent(&mut self, level: usize, of: &[u64]) -> Result<Box<[u64]>, Halt> {
         let ring = self.rings[level].clone();
+        let of = self.diagrams.state(of)?;
         let mut parents = self.diagrams.empty();
         let mut visit = |sets: &mut Diagrams, alternative: &Alternative<'_>, states: &Set| -> Result<(), Full> {
             if alternative.kind == AlternativeKind::Next {
-                let some = sets.preimage(states, alternative.overwrites, of)?;
+                let some = sets.preimage(states, alternative.overwrites, &of)?;
                 parents = sets.union(&parents, &some)?;
             }
             Ok(())
         };
-        let mut none = ring.clone();
-        for part in 0..self.explorer.parts() {
-            if let Some(alive) = self.explorer.expand_part(part, &mut self.diagrams, &ring, &mut visit)? {
-                none = self.diagrams.minus(&none, &alive)?;
-            }
-        }
-        self.explorer.expand_otherwise(&mut self.diagrams, &none, &mut visit)?;
+        self.each_alternative(&ring, &mut visit)?;
         Ok(self.diagrams.member(&parents))
     }
 

@@ -105,6 +105,31 @@ fn assumptions_that_no_initial_state_satisfies() {
     }
 }
 
+/// Where no step is left, little was looked at; an input without bounds leaves it to solvers to find that out.
+#[test]
+fn assumptions_that_no_step_satisfies() {
+    let program = |assumed: &str| {
+        model(&format!(
+            "monitored inflow: Integer controlled level: Integer definitions: INVAR {assumed} \
+             invariant inv_level over level: level < 9 \
+             main rule r_Main = level := min(level + max(inflow, 0), 8) default init s0: function level = 0"
+        ))
+    };
+    for method in [Method::Induction, Method::Reachability, Method::Portfolio] {
+        for outcome in ask(&program("inflow > level and inflow < level"), method, 20) {
+            let Ok(report) = outcome else { continue };
+            let is_told =
+                |outcome: &Outcome| matches!(outcome, Outcome::Unknown(reasons) if reasons.contains(&Reason::Stepless));
+            assert!(report.verdicts.iter().all(|verdict| is_told(&verdict.outcome)), "{:?}", report.verdicts);
+        }
+        for outcome in ask(&program("inflow >= level"), method, 20) {
+            let Ok(report) = outcome else { continue };
+            let of_level = report.verdicts.last().map(|verdict| &verdict.outcome);
+            assert_eq!(of_level, Some(&Outcome::Holds), "{method:?}: {:?}", report.left);
+        }
+    }
+}
+
 /// An invariant that cannot be evaluated, or is undef, is violated; the steps are made all the same, so that the others are judged by them. Each
 /// engine says so, whether the invariant reads an input or not.
 #[test]
