@@ -107,12 +107,14 @@ impl Model {
     }
 
     fn fragment<T>(&mut self, file: FileId, check: impl FnOnce(&mut Body<'_>) -> T) -> Fragment<T> {
-        let names = std::mem::take(&mut self.names);
+        let mut names = std::mem::take(&mut self.names);
+        names.beside = true;
         let mut faults = Faults::default();
         let site = Site { model: self, names: &names, faults: &mut faults, file };
         let mut body = Body::new(site, &[], Bound::Parameter);
         let item = check(&mut body);
         let variables = body.variables;
+        names.beside = false;
         self.names = names;
         Fragment { item, variables, diagnostics: faults.into_sorted() }
     }

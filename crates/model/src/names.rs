@@ -22,6 +22,8 @@ pub struct Names {
     /// A reported fault may have hidden names (an import that failed, a broken signature), so a name that is not
     /// here is no fault of its own.
     pub(crate) incomplete: bool,
+    /// Whether it is a text beside the model that sees them, such as a scenario or a property; it declares nothing.
+    pub(crate) beside: bool,
 }
 
 /// Which names an import brings: all, or those listed.
@@ -104,11 +106,12 @@ impl Names {
             functions: keep(&self.functions, selection),
             rules: keep(&self.rules, selection),
             incomplete: self.incomplete,
+            beside: false,
         })
     }
 
     fn is_empty(&self) -> bool {
-        let Names { domains, literals, functions, rules, incomplete: _ } = self;
+        let Names { domains, literals, functions, rules, incomplete: _, beside: _ } = self;
         domains.is_empty() && literals.is_empty() && functions.is_empty() && rules.is_empty()
     }
 

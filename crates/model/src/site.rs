@@ -155,7 +155,7 @@ impl Site<'_> {
                         .find_map(|(_, domain)| (domain.name.as_deref() == Some(name)).then_some(domain.span?))
                 })
                 .unwrap_or_else(|| {
-                    format!("declare it in the signature: `abstract domain {name}`, or import the file that does")
+                    self.declare(&format!("`abstract domain {name}`"))
                 })
             }),
         };
@@ -168,6 +168,14 @@ impl Site<'_> {
         let functions = self.names.functions.values().flat_map(|ids| ids.iter()).map(|id| self.model.function(*id));
         let mut domains = functions.flat_map(|function| function.parameters.iter().chain([&function.codomain]));
         domains.find(|domain| self.model.domains.get(**domain).name.as_deref() == Some(name)).copied()
+    }
+
+    /// Says where a name that nobody has would be declared: a text beside a model declares nothing.
+    fn declare(&self, declaration: &str) -> String {
+        match self.names.beside {
+            true => format!("name one that the model has, or declare it there: {declaration}"),
+            false => format!("declare it in the signature: {declaration}, or import the file that does"),
+        }
     }
 
     /// Says that a name is declared in a file that is read but does not let it be seen here.
@@ -200,7 +208,7 @@ impl Site<'_> {
                 }
                 self.hidden(name, |model, name| model.functions.iter().find(|f| f.name == name).map(|f| f.span))
                     .unwrap_or_else(|| {
-                        format!("declare it in the signature: `controlled {name}: …`, or import the file that does")
+                        self.declare(&format!("`controlled {name}: …`"))
                     })
             })
         };

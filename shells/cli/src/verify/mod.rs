@@ -22,6 +22,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use clap::Args;
+use groundstate::VerifiedSystem;
 use groundstate::inputs::verification::Verification;
 use groundstate::job::{self, Cancel};
 use groundstate::verify::solver::Method;
@@ -209,10 +210,9 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
             help,
         ));
     }
-    let rest = if is_chart { Some(without_proved(shell, arguments)?) } else { None };
-    let arguments = rest.as_ref().unwrap_or(arguments);
+    let mut rest = None;
     let system = match is_chart {
-        true => match system::load(shell, arguments)? {
+        true => match system(shell, arguments, &mut rest)? {
             Ok(system) => Some(system),
             Err(exit) => return Ok(exit),
         },
@@ -223,6 +223,7 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
         }
         false => None,
     };
+    let arguments = rest.as_ref().unwrap_or(arguments);
     let mut loaded = match &system {
         Some(system) => system.loaded.clone(),
         None => match load(shell, &arguments.model)? {
@@ -296,7 +297,6 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     }
     let (proved, watch) = match &system {
         Some(system) => {
-            system::refuse(system, &asked, loaded.program.properties.len(), terminal.as_ref())?;
             system::about(shell, system)?;
             system::sure_ages(shell, system)?;
             let sought = system::Sought { arguments, options: &options, agents };
@@ -379,6 +379,26 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     checkpoint.map_or(Ok(()), Checkpoint::done)?;
     folder.map_or(Ok(()), |folder| folder.done())?;
     Ok(exit(&report))
+}
+
+/// Loads the system of a chart, and proves what it can on parts of it: `rest` is what is left to ask then. What is at fault in a question is told
+/// before the first search.
+fn system(
+    shell: &mut Shell,
+    arguments: &Arguments,
+    rest: &mut Option<Arguments>,
+) -> Result<Result<Box<VerifiedSystem>, Exit>, Failure> {
+    let system = match system::load(shell, arguments, true)? {
+        Ok(system) => system,
+        Err(exit) => return Ok(Err(exit)),
+    };
+    let Some((asked, _, terminal)) = ask(shell, arguments, &system.loaded)? else { return Ok(Err(Exit::World)) };
+    system::refuse(&system, &asked, system.loaded.program.properties.len(), terminal.as_ref())?;
+    let left = without_proved(shell, arguments)?;
+    let is_less = !left.bounded.proved.is_empty();
+    let left = rest.insert(left);
+    // What nobody asks for any more need not be followed.
+    if is_less { system::load(shell, left, false) } else { Ok(Ok(system)) }
 }
 
 /// The arguments without what is proved of parts of the chart's system, and without the time that it took.

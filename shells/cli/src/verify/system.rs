@@ -30,8 +30,12 @@ use crate::files::{relative, write_text};
 use crate::interrupt;
 use crate::shell::Shell;
 
-/// Loads a system. If it has errors, shows them and returns the exit code.
-pub fn load(shell: &mut Shell, arguments: &Arguments) -> Result<Result<Box<VerifiedSystem>, Exit>, Failure> {
+/// Loads a system, and shows its warnings if it `warns`. If it has errors, shows them and returns the exit code.
+pub fn load(
+    shell: &mut Shell,
+    arguments: &Arguments,
+    warns: bool,
+) -> Result<Result<Box<VerifiedSystem>, Exit>, Failure> {
     let mut disk = shell.disk();
     let root = disk.root(&arguments.model)?;
     // What a file says beside the options; its faults are told when it is read for the loaded model.
@@ -48,7 +52,9 @@ pub fn load(shell: &mut Shell, arguments: &Arguments) -> Result<Result<Box<Verif
         }
         Ok(system) => {
             let (sources, warnings) = &system.warnings;
-            shell.diagnostics(sources, warnings)?;
+            if warns {
+                shell.diagnostics(sources, warnings)?;
+            }
             Ok(Ok(system))
         }
         Err(faults) => {
