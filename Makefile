@@ -70,12 +70,12 @@ bench-studio: web/dist/index.html $(GROUNDSTATE) ## the studio's first picture, 
 vscode: ## the extension for VS Code, checked and packed: editors/vscode/groundstate*.vsix
 	cd editors/vscode && npm ci --no-audit --no-fund && npm test && npm run package
 
-full: ## what is slow and rarely breaks, beside `make test`: larger samples, the oldest Rust, sanitizers, all robots, proofs, mutants
-	@$(TIMED) --begin
+full: export GROUNDSTATE_FULL = 1
+full: ## `make test` with the largest samples, and what is slow and rarely breaks: the oldest Rust, sanitizers, all robots, proofs, mutants: hours
 	$(MAKE) --no-print-directory test
-	GROUNDSTATE_FULL=1 $(LINTED) $(CARGO) test --workspace --locked --no-fail-fast
-	$(MAKE) --no-print-directory msrv verify cpp-full robot-full mutants cpp-mutants studio-full
-	@$(TIMED)
+	@for part in msrv verify cpp-full robot-full mutants cpp-mutants studio-full; do \
+	    $(TIMED) $$part $(MAKE) --no-print-directory $$part || failed="$$failed $$part"; \
+	done; $(TIMED); test -z "$$failed" || { echo "failed:$$failed"; exit 1; }
 
 quick: $(TESTED) ## what a one-line change needs: lints, the tests that are over in a moment, the library's scenarios
 	$(CARGO) fmt --all --check

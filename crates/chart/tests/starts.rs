@@ -160,7 +160,7 @@ fn simulated(tasks: &[Task], numbers: &mut Random, ticks: u64) -> (Vec<u64>, Vec
 fn no_cycle_takes_longer_than_analysed() {
     let mut numbers = Random(0x9e37_79b9_7f4a_7c15);
     let (mut bounded, mut gathers, mut tight) = (0, 0, 0);
-    let rounds = if std::env::var_os("GROUNDSTATE_FULL").is_some() { 3_000 } else { 300 };
+    let rounds = if testkit::sample::is_full() { 3_000 } else { 300 };
     for _ in 0..rounds {
         let tasks = drawn(&mut numbers);
         let text = chart(&tasks);

@@ -289,7 +289,7 @@ fn assert_placed(text: &str, places: &[(String, (f64, f64))], name: &str) {
 #[test]
 fn places_are_kept() {
     let mut dice = Dice(7);
-    let full = std::env::var_os("GROUNDSTATE_FULL").is_some();
+    let full = testkit::sample::is_full();
     for (index, text) in texts().iter().enumerate() {
         let both = [0, 30];
         for left_out in if full { &both[..] } else { &both[index % 2..=index % 2] }.iter().copied() {

@@ -76,7 +76,7 @@ fn damaged_charts() {
         "examples/visual_servoing/VisualServoingComponent.chart",
     ];
     // Each is laid out, which takes most of the time.
-    let each = if std::env::var_os("GROUNDSTATE_FULL").is_some() { 150 } else { 20 };
+    let each = if testkit::sample::is_full() { 150 } else { 20 };
     let mut whole = 0;
     for (seed, file) in files.iter().enumerate() {
         let text = std::fs::read_to_string(root.join(file)).expect("the chart is there");

@@ -167,7 +167,7 @@ fn is_age(program: &Program, subject: Subject) -> bool {
 #[test]
 fn bounds_without_a_search_hold_in_every_run() {
     let (mut held, mut refuted, mut tight) = (0, 0, 0);
-    let full = std::env::var_os("GROUNDSTATE_FULL").is_some();
+    let full = testkit::sample::is_full();
     let (seeds, states) = if full { (120, 30_000) } else { (8, 4_000) };
     for seed in 1..=seeds {
         let text = drawn(seed);

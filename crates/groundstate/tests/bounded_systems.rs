@@ -154,7 +154,7 @@ fn holds(text: &str, kind: &str) -> bool {
 #[test]
 fn bounds_that_just_hold_are_proved_and_those_below_are_refuted() {
     let (mut fresh, mut some, mut bounded, mut starved) = (0, 0, 0, 0);
-    let seeds = if std::env::var_os("GROUNDSTATE_FULL").is_some() { 120 } else { 12 };
+    let seeds = if testkit::sample::is_full() { 120 } else { 12 };
     for seed in 1..=seeds {
         let text = drawn(seed);
         let (counted, again) = run(&system(&with(&text, 10_000, WINDOW - 1)), 200);

@@ -47,7 +47,7 @@ fn check(program: &Arc<Program>, steps: u64, seeds: u64, name: &str) -> usize {
 #[test]
 fn the_models_of_this_project() {
     let found = ["examples", "library/patterns"].map(|folder| repository::files(folder, &["asm"])).concat();
-    let seeds = if std::env::var_os("GROUNDSTATE_FULL").is_some() { 2 } else { 1 };
+    let seeds = if testkit::sample::is_full() { 2 } else { 1 };
     let mut checked = 0;
     for path in found {
         let program = load(Disk::read(&path).expect("a model is a text"));

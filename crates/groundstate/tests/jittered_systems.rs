@@ -120,7 +120,7 @@ fn name(system: &VerifiedSystem, subject: groundstate::verify::Subject) -> &str 
 #[test]
 fn bounds_without_a_search_hold_for_all_releases() {
     let (mut held, mut refuted, mut tight) = (0, 0, 0);
-    let full = std::env::var_os("GROUNDSTATE_FULL").is_some();
+    let full = testkit::sample::is_full();
     for seed in 1..=(if full { 80 } else { 8 }) {
         let text = drawn(seed);
         let told = analysed(&text);

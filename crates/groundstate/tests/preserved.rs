@@ -262,7 +262,7 @@ struct Counts {
 
 #[test]
 fn what_comes_along_holds_of_the_concrete_machine() {
-    let cases = if std::env::var_os("GROUNDSTATE_FULL").is_some() { 6000 } else { 600 };
+    let cases = if testkit::sample::is_full() { 6000 } else { 600 };
     let mut counts = Counts::default();
     for seed in 0..cases {
         let mut random = Random(seed * 7919 + 3);

@@ -90,7 +90,7 @@ fn a_scenario_ends_step_by_step_as_it_does_at_once() {
     let small = small.map(|name| format!("examples/{name}"));
     // The systems take half a minute.
     let all = ["examples".to_string(), "library/patterns".to_string()];
-    let folders = if std::env::var_os("GROUNDSTATE_FULL").is_some() { all.to_vec() } else { small.to_vec() };
+    let folders = if testkit::sample::is_full() { all.to_vec() } else { small.to_vec() };
     for folder in folders {
         for path in testkit::repository::files(&folder, &["avalla"]) {
             let source = Disk::read(&path).expect("a scenario");

@@ -147,7 +147,7 @@ fn after_any_edits_it_says_what_a_fresh_one_says() {
     let mut edited = Workspace::new(files.clone());
     let mut random = SplitMix::new(7);
     let names: Vec<String> = files.0.keys().filter(|name| !name.ends_with(".md")).cloned().collect();
-    let rounds = if std::env::var_os("GROUNDSTATE_FULL").is_some() { 2_000 } else { 40 };
+    let rounds = if testkit::sample::is_full() { 2_000 } else { 40 };
     for version in 0..rounds {
         let name = &names[random.below(names.len() as u64) as usize];
         let text = files.0.get_mut(name).expect("it is there");

@@ -216,7 +216,7 @@ impl Account {
 
 #[test]
 fn the_text_means_what_was_drawn() {
-    let rounds = if std::env::var_os("GROUNDSTATE_FULL").is_some() { 10_000 } else { 300 };
+    let rounds = if testkit::sample::is_full() { 10_000 } else { 300 };
     let mut random = Random(0x9E37_79B9_7F4A_7C15);
     let mut text = START.to_string();
     let mut kept = account(&read(&text));

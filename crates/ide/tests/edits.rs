@@ -23,7 +23,7 @@ impl Dice {
 }
 
 fn rounds(sample: usize, full: usize) -> usize {
-    if std::env::var_os("GROUNDSTATE_FULL").is_some() { full } else { sample }
+    if testkit::sample::is_full() { full } else { sample }
 }
 
 /// The files of some examples, with what they import; with `GROUNDSTATE_FULL` set, of all.

@@ -76,7 +76,7 @@ fn comments(text: &str) -> std::collections::BTreeSet<String> {
 
 #[test]
 fn a_refactored_model_means_what_it_meant() {
-    let full = std::env::var_os("GROUNDSTATE_FULL").is_some();
+    let full = testkit::sample::is_full();
     let folders = ["examples", "library"].map(|folder| repository::files(folder, &["asm"])).concat();
     let (mut by_kind, mut ran) = (std::collections::BTreeMap::<String, usize>::new(), 0);
     for path in folders {

@@ -154,9 +154,7 @@ impl Site<'_> {
                         .iter()
                         .find_map(|(_, domain)| (domain.name.as_deref() == Some(name)).then_some(domain.span?))
                 })
-                .unwrap_or_else(|| {
-                    self.declare(&format!("`abstract domain {name}`"))
-                })
+                .unwrap_or_else(|| self.declare(&format!("`abstract domain {name}`")))
             }),
         };
         self.faults.push(fault::name::unknown_domain(span, name, help));
@@ -207,9 +205,7 @@ impl Site<'_> {
                     return format!("did you mean `{other}`?");
                 }
                 self.hidden(name, |model, name| model.functions.iter().find(|f| f.name == name).map(|f| f.span))
-                    .unwrap_or_else(|| {
-                        self.declare(&format!("`controlled {name}: …`"))
-                    })
+                    .unwrap_or_else(|| self.declare(&format!("`controlled {name}: …`")))
             })
         };
         self.faults.push(fault::name::unknown_function(span, name, help));

@@ -117,7 +117,7 @@ impl Loader for Instead<'_> {
 
 #[test]
 fn the_checker_accepts_every_mutant() {
-    let full = std::env::var_os("GROUNDSTATE_FULL").is_some();
+    let full = testkit::sample::is_full();
     let mut used = BTreeSet::new();
     let mut models = vec![
         "library/verification/Lock.asm",

@@ -335,7 +335,7 @@ fn so_it_is_where_runs_are_fair() {
 /// Bounds make it not known, or change nothing; and where the input is the same in both, what is refuted stays refuted mostly.
 #[test]
 fn bounds_change_no_verdict() {
-    let cases = if std::env::var_os("GROUNDSTATE_FULL").is_some() { 4000 } else { 400 };
+    let cases = if testkit::sample::is_full() { 4000 } else { 400 };
     let couplings = [
         "same n;",
         "same n; free abstract.go;",
@@ -384,7 +384,7 @@ fn bounds_change_no_verdict() {
 
 /// With diagrams of at most so many steps.
 fn agree(most: usize, coupling: &str, mapped: Mapped, fair: &[Fair]) {
-    let cases = if std::env::var_os("GROUNDSTATE_FULL").is_some() { 2000 } else { 150 };
+    let cases = if testkit::sample::is_full() { 2000 } else { 150 };
     let (mut counts, mut by_fairness) = ([0; 3], 0);
     for seed in 0..cases {
         let mut random = Random(seed * 7919 + 1);

@@ -73,7 +73,7 @@ impl Judge<'_> {
 }
 
 fn agree(coupling: &str, fair: &[Fair], some_are_endless: bool) {
-    let full = std::env::var_os("GROUNDSTATE_FULL").is_some();
+    let full = testkit::sample::is_full();
     let pairs = if full { 2000 } else { 150 };
     let [mut refines, mut refuted, mut endless, mut unknown] = [0; 4];
     for seed in 0..pairs {

@@ -38,7 +38,7 @@ fn told(programs: [&Arc<Program>; 2], text: &str, options: &Options) -> Report {
 
 #[test]
 fn threads_change_nothing() {
-    let cases = if std::env::var_os("GROUNDSTATE_FULL").is_some() { 200 } else { 20 };
+    let cases = if testkit::sample::is_full() { 200 } else { 20 };
     let mut random = Random(7);
     let couplings = [
         "same n;",

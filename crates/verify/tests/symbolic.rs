@@ -74,7 +74,7 @@ fn philosophers() {
     };
     assert_eq!(agree(&of(7)).progress.states, 3u64.pow(7) - 1);
     // No other engine would finish.
-    let count = if std::env::var_os("GROUNDSTATE_FULL").is_some() { 24 } else { 18 };
+    let count = if testkit::sample::is_full() { 24 } else { 18 };
     let many = by(EngineKind::Symbolic, &of(count));
     assert_eq!(many.progress.states, 3u64.pow(count) - 1);
     let stuck = verdicts(&many);

@@ -77,7 +77,7 @@ impl Draw {
 
 #[test]
 fn requests_in_disorder_are_answered_one_by_one() {
-    let sessions = if std::env::var_os("GROUNDSTATE_FULL").is_some() { 200 } else { 12 };
+    let sessions = if testkit::sample::is_full() { 200 } else { 12 };
     for session in 0..sessions {
         let mut debugger = Debugger::start("disorder", &[("Lift.asm", LIFT)]);
         let mut draw = Draw(session);

@@ -45,7 +45,7 @@ struct Sent {
 
 #[test]
 fn requests_in_disorder_are_answered_once_and_of_their_own_text() {
-    let count = if std::env::var_os("GROUNDSTATE_FULL").is_some() { 10_000 } else { 400 };
+    let count = if testkit::sample::is_full() { 10_000 } else { 400 };
     let mut editor = Editor::plain("disorder", &[("Lamp.asm", LAMP)]);
     let mut draw = Draw(3);
     // Lines above the model come and go: `light` is declared that much lower.
