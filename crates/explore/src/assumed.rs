@@ -34,7 +34,8 @@ pub fn assumed_bounds(program: &Program) -> Bounds {
         if let (Some(low), Some(high)) = (low, high)
             && high.saturating_sub(low) < VALUES
         {
-            bounds.insert(function, (low..=high).map(Value::Integer).collect());
+            // Where they contradict each other they leave no step, which one value shows as well as all.
+            bounds.insert(function, (low..=high.max(low)).map(Value::Integer).collect());
         }
     }
     bounds

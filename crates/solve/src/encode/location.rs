@@ -119,8 +119,12 @@ impl Encoder {
         let declared = self.program.function(function).clone();
         let values = match self.bounds.get(&function) {
             Some(values) => Some(values.clone()),
-            None => self.elements_of(declared.codomain).filter(|values| !values.is_empty()),
+            None => self.elements_of(declared.codomain),
         };
+        if values.as_ref().is_some_and(Vec::is_empty) {
+            let domain = &self.program.domain(declared.codomain).name;
+            return self.outside(format!("an input of the domain {domain}, of which no value is known"), span);
+        }
         let name = self.show(function, &key.1);
         let symbol = match values {
             Some(values) => self.input_among(&name, &key, values, span)?,
