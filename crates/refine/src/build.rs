@@ -3,6 +3,7 @@
 //! In: what the file says, the joint model. Out: the coupling and the faults of the file. Terms are checked in the joint model
 //! ([`crate::joint`]) as if the file were blank around them, so that faults stand at their places.
 
+mod counterpart;
 mod environment;
 
 use std::collections::BTreeSet;
@@ -151,18 +152,24 @@ impl Builder {
 
     /// Couples all functions of equal names and domains.
     fn same_by_default(&mut self) {
-        let [one, other] = self.coupling.programs.clone();
-        let mut names = BTreeSet::new();
-        for function in one.functions.iter().filter(|function| is_state(function)) {
-            let Some(there) = other.find_function(&function.name, function.parameters.len()) else { continue };
-            let Some(here) = one.find_function(&function.name, function.parameters.len()) else { continue };
+        let one = Arc::clone(&self.coupling.programs[ABSTRACT]);
+        let mut pairs = BTreeSet::new();
+        for (here, function) in (0..).map(FunctionId).zip(&one.functions).filter(|(_, function)| is_state(function)) {
+            let there = match self.counterpart(here, is_state) {
+                Ok(Some(there)) => there,
+                Ok(None) => continue,
+                Err(fault) => {
+                    self.fault(fault);
+                    continue;
+                }
+            };
             let grows =
                 [(ABSTRACT, here), (CONCRETE, there)].into_iter().any(|(side, f)| self.grows(side, f, false).is_some());
-            if is_state(other.function(there)) && self.other_domain(here, there).is_none() && !grows {
-                names.insert((function.name.clone(), [here, there]));
+            if !grows {
+                pairs.insert((function.name.clone(), [here, there]));
             }
         }
-        for (name, functions) in names {
+        for (name, functions) in pairs {
             self.add_same(name, functions);
         }
     }
@@ -204,9 +211,15 @@ impl Builder {
         let arity = |program: &Program, id: FunctionId| program.function(id).parameters.len();
         let mut pairs = Vec::new();
         for here in here {
-            pairs.extend(
-                there.iter().filter(|there| arity(&one, here) == arity(&other, **there)).map(|there| [here, *there]),
-            );
+            // Of several with a name and as many arguments those with the same domains are meant.
+            match self.counterpart(here, |function| !function.library) {
+                Ok(Some(there)) => pairs.push([here, there]),
+                Ok(None) => {
+                    let fits = |there: &&FunctionId| arity(&one, here) == arity(&other, **there);
+                    pairs.extend(there.iter().filter(fits).map(|there| [here, *there]));
+                }
+                Err(fault) => return self.fault(fault),
+            }
         }
         if pairs.is_empty() {
             let message = format!("`{}` has different numbers of arguments in the two machines", part.text);
@@ -236,9 +249,10 @@ impl Builder {
         for (side, function) in functions.into_iter().enumerate() {
             self.reader(side, function);
         }
-        let joint = joint_name(ABSTRACT, &name);
         let arity = self.coupling.programs[ABSTRACT].function(functions[ABSTRACT]).parameters.len();
-        let arguments = self.arguments(&joint, arity).or_else(|| (arity == 0).then(|| vec![Vec::new()]));
+        let joint = self.coupling.joint.with_domains_of[ABSTRACT].get(&functions[ABSTRACT]);
+        let arguments = joint.and_then(|joint| self.arguments(*joint));
+        let arguments = arguments.or_else(|| (arity == 0).then(|| vec![Vec::new()]));
         if arguments.is_none() {
             let of_state = |side: usize| is_state(self.coupling.programs[side].function(functions[side]));
             let begun = |side: usize| {
@@ -255,9 +269,9 @@ impl Builder {
     }
 
     /// All arguments of a function of the joint model, if they can be listed.
-    fn arguments(&self, name: &str, arity: usize) -> Option<Vec<Vec<machine::Value>>> {
+    fn arguments(&self, function: FunctionId) -> Option<Vec<Vec<machine::Value>>> {
         let program = &self.coupling.joint.program;
-        let function = program.function(program.find_function(name, arity)?);
+        let function = program.function(function);
         let mut machine = Machine::new(Arc::new(program.clone()), self.limits.clone());
         let mut all = vec![Vec::new()];
         for domain in &function.parameters {

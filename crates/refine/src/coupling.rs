@@ -10,6 +10,7 @@ use program::{Expression, FunctionId, Program, Property};
 use rustc_hash::FxHashMap;
 use syntax::{Diagnostic, FileId, Sources, Span};
 
+use crate::ABSTRACT;
 use crate::diagram::Diagrams;
 use crate::joint::Joint;
 
@@ -115,7 +116,16 @@ impl Coupling {
     /// A conjunct of the relation as a user would write it.
     pub fn conjunct(&self, index: usize) -> String {
         match &self.conjuncts[index] {
-            Conjunct::Same { name, .. } => format!("abstract.{name} = concrete.{name}"),
+            Conjunct::Same { name, functions, .. } => {
+                let of = |other: &&Conjunct| matches!(other, Conjunct::Same { name: other, .. } if other == name);
+                let program = &self.programs[ABSTRACT];
+                let domains = program.function(functions[ABSTRACT]).parameters.iter();
+                let domains: Vec<&str> = domains.map(|domain| &*program.domain(*domain).name).collect();
+                match self.conjuncts.iter().filter(of).count() > 1 && !domains.is_empty() {
+                    true => format!("abstract.{name} = concrete.{name}, of {}", domains.join(", ")),
+                    false => format!("abstract.{name} = concrete.{name}"),
+                }
+            }
             Conjunct::Term { text, .. } => in_a_line(text),
         }
     }

@@ -10,7 +10,7 @@ use machine::Limits;
 use program::{Builtin, DomainId, FunctionId, Quantifier, Slot, Term, TermId};
 
 use crate::coupling::{Conjunct, Coupling};
-use crate::joint::{described, joint_name};
+use crate::joint::described;
 use crate::{ABSTRACT, CONCRETE};
 
 /// What is known of a function of the abstract machine.
@@ -54,12 +54,12 @@ impl Determined {
     fn learn(&mut self, coupling: &Coupling, limits: &Limits, conjunct: &Conjunct) {
         let joint = &coupling.joint.program;
         match conjunct {
-            Conjunct::Same { name, functions, arguments } => {
+            Conjunct::Same { functions, arguments, .. } => {
                 let [one, other] = *functions;
                 let [here, there] = [ABSTRACT, CONCRETE].map(|side| coupling.programs[side].function(functions[side]));
                 let codomain = |side: usize| {
-                    let function = joint.find_function(&joint_name(side, name), here.parameters.len())?;
-                    Some(joint.base_domain(joint.function(function).codomain))
+                    let function = coupling.joint.with_domains_of[side].get(&functions[side])?;
+                    Some(joint.base_domain(joint.function(*function).codomain))
                 };
                 let fits = codomain(ABSTRACT).is_some() && codomain(ABSTRACT) == codomain(CONCRETE);
                 let same = here.parameters.len() == there.parameters.len()

@@ -33,6 +33,9 @@ pub(crate) struct Joint {
     pub bridges: [Bridge; 2],
     /// By function of the joint program: the side and the function there.
     pub of: FxHashMap<FunctionId, (usize, FunctionId)>,
+    /// By side and function: the one of the joint program that has its domains. Where a side has several functions with one name and the same
+    /// domains, which an export list can hide from each other, all have the one that stands for the last.
+    pub with_domains_of: [FxHashMap<FunctionId, FunctionId>; 2],
     /// Domains of which a machine makes elements: the joint model does not have these.
     growing: BTreeSet<String>,
 }
@@ -207,7 +210,9 @@ impl Shapes {
         }
     }
 
-    fn text(&self, programs: [&Program; 2]) -> String {
+    /// The model; and by side and name in it, in the order of their declaration, the functions with each name. Those that are declared as one are
+    /// listed from the last.
+    fn text(&self, programs: [&Program; 2]) -> (String, BTreeMap<String, Vec<Vec<FunctionId>>>) {
         let mut text = String::from("asm Coupling\nimport StandardLibrary\nsignature:\n");
         let mut defined = String::new();
         for name in &self.names {
@@ -226,18 +231,25 @@ impl Shapes {
         for (name, domain) in &self.statics {
             let _ = writeln!(text, "\tstatic {name}: {domain}");
         }
+        let mut named: BTreeMap<String, Vec<Vec<FunctionId>>> = BTreeMap::new();
         for (side, program) in programs.into_iter().enumerate() {
-            let mut declared = BTreeSet::new();
-            // Of several with a name and so many parameters the last counts.
-            for function in program.functions.iter().rev().filter(|function| is_named(function)) {
+            // By name and parameters, the place among those of that name.
+            let mut declared = BTreeMap::new();
+            // Of those with the same domains the last counts.
+            for (index, function) in program.functions.iter().enumerate().rev().filter(|(_, one)| is_named(one)) {
+                let id = FunctionId(index as u32);
                 let parameters: Option<Vec<String>> =
                     function.parameters.iter().map(|domain| self.written(side, program, *domain)).collect();
                 let codomain = self.written(side, program, function.codomain);
                 let (Some(parameters), Some(codomain)) = (parameters, codomain) else { continue };
-                if !declared.insert((&function.name, parameters.len())) {
+                let name = joint_name(side, &function.name);
+                let of_name = named.entry(name.clone()).or_default();
+                let place = *declared.entry((&function.name, parameters.clone())).or_insert(of_name.len());
+                if place < of_name.len() {
+                    of_name[place].push(id);
                     continue;
                 }
-                let name = joint_name(side, &function.name);
+                of_name.push(vec![id]);
                 let _ = match &parameters[..] {
                     [] => writeln!(text, "\tmonitored {name}: {codomain}"),
                     [one] => writeln!(text, "\tmonitored {name}: {one} -> {codomain}"),
@@ -248,7 +260,7 @@ impl Shapes {
         text.push_str("definitions:\n");
         text.push_str(&defined);
         text.push_str("\tmain rule r_Main = skip\n");
-        text
+        (text, named)
     }
 }
 
@@ -354,7 +366,7 @@ pub(crate) fn join(programs: [&Program; 2], limits: &Limits) -> Result<Joint, St
     let mut shapes = Shapes::default();
     shapes.add(ABSTRACT, programs[ABSTRACT], limits);
     shapes.add(CONCRETE, programs[CONCRETE], limits);
-    let text = shapes.text(programs);
+    let (text, named) = shapes.text(programs);
     let Checked { model, sources, diagnostics } = model::check(SourceFile::new("<coupling>", text), &mut NoFiles);
     let fault = |faults: &[syntax::Diagnostic]| {
         let first = faults.iter().find(|fault| fault.severity == syntax::Severity::Error);
@@ -366,14 +378,13 @@ pub(crate) fn join(programs: [&Program; 2], limits: &Limits) -> Result<Joint, St
     let program = program::lower(&model).map_err(|faults| fault(&faults).unwrap_or_default())?;
     let joint = atoms(&program);
     let bridges = [ABSTRACT, CONCRETE].map(|side| Bridge::new(programs[side], &joint));
-    let mut of = FxHashMap::default();
-    for (index, function) in program.functions.iter().enumerate() {
-        for (side, other) in programs.into_iter().enumerate() {
-            let prefix = joint_name(side, "");
-            let named = function.name.strip_prefix(&prefix);
-            if let Some(there) = named.and_then(|name| other.find_function(name, function.parameters.len())) {
-                of.insert(FunctionId(index as u32), (side, there));
-            }
+    let (mut of, mut with_domains_of) = (FxHashMap::default(), [FxHashMap::default(), FxHashMap::default()]);
+    for (name, all) in &named {
+        let side = usize::from(!name.starts_with(&joint_name(ABSTRACT, "")));
+        let joint = (0..).map(FunctionId).zip(&program.functions).filter(|(_, function)| function.name == *name);
+        for ((joint, _), functions) in joint.zip(all) {
+            of.insert(joint, (side, functions[0]));
+            with_domains_of[side].extend(functions.iter().map(|function| (*function, joint)));
         }
     }
     let mut growing = BTreeSet::new();
@@ -382,7 +393,7 @@ pub(crate) fn join(programs: [&Program; 2], limits: &Limits) -> Result<Joint, St
         let differing = program.domains.iter().zip(constant).filter(|(_, constant)| !constant);
         growing.extend(differing.filter_map(|(domain, _)| shapes.called[side].get(&domain.name).cloned()));
     }
-    Ok(Joint { model, program, sources, bridges, of, growing })
+    Ok(Joint { model, program, sources, bridges, of, with_domains_of, growing })
 }
 
 /// The elements of a domain as a model writes them, if they are fixed and can all be written.

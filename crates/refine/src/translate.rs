@@ -390,7 +390,15 @@ impl<'c> Translation<'c> {
     }
 
     fn call(&mut self, of: Of, function: FunctionId, arguments: &[TermId], scope: &Scope) -> Written {
-        let name = self.coupling.programs[CONCRETE].function(function).name.clone();
+        let concrete = &self.coupling.programs[CONCRETE];
+        let declared = concrete.function(function);
+        let name = declared.name.clone();
+        let is_alike = |other: &&program::Function| {
+            other.name == name && other.parameters.len() == declared.parameters.len() && !other.library
+        };
+        if concrete.functions.iter().filter(is_alike).count() > 1 {
+            return Err(format!("the concrete model has several functions {name}"));
+        }
         match arguments {
             [] => Ok(Text::operand(name)),
             _ => Ok(Text::operand(format!("{name}({})", self.list(of, arguments, scope)?))),

@@ -6,6 +6,7 @@ mod checkpoint;
 mod computed;
 mod enumerated;
 mod growing;
+mod homonyms;
 mod induction;
 mod invariants;
 mod naive;

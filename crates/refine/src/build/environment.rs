@@ -91,7 +91,14 @@ impl Builder {
         for id in left {
             let function = one.function(id);
             let (name, arity) = (&function.name, function.parameters.len());
-            let there = other.find_function(name, arity).filter(|there| is_input(other.function(*there)));
+            let there = match self.counterpart(id, is_input) {
+                Ok(Some(there)) => Some(there),
+                Ok(None) => other.find_function(name, arity).filter(|there| is_input(other.function(*there))),
+                Err(fault) => {
+                    self.fault(fault);
+                    continue;
+                }
+            };
             let read = one.terms.iter().any(|term| matches!(term, Term::Read { function, .. } if *function == id));
             let Some(there) = there else {
                 if read {

@@ -228,7 +228,7 @@ impl<'d> Diagrams<'d> {
         own: VariableId,
     ) -> Result<(Symbol, Node), Outside> {
         let coupling = self.coupling;
-        let Some((_, arguments, shape)) = input_location(input) else { return Err(nowhere("an input of no location")) };
+        let Some((_, _, shape)) = input_location(input) else { return Err(nowhere("an input of no location")) };
         let value = store.terms.known(own);
         let symbol = Symbol::Open(Open { shape, value, defined: Terms::TRUE });
         let bridges = &coupling.joint.bridges;
@@ -237,8 +237,7 @@ impl<'d> Diagrams<'d> {
         let over = |value: &Value| bridges[CONCRETE].over(value);
         let (symbol, none) = across(store, program, domain, &symbol, &over)?;
         let joint = &coupling.joint.program;
-        let name = crate::joint::joint_name(ABSTRACT, &coupling.programs[ABSTRACT].function(function).name);
-        let Some(named) = joint.find_function(&name, arguments.len()) else {
+        let Some(named) = coupling.joint.with_domains_of[ABSTRACT].get(&function).copied() else {
             return Err(nowhere("an input whose domains both machines have, and no coupling"));
         };
         let back = |value: &Value| bridges[ABSTRACT].back(value);

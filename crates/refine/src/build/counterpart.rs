@@ -1,0 +1,55 @@
+//! Which function of the concrete machine is one of the abstract machine, where nothing says so.
+//!
+//! In: a function. Out: the one that has its name and its domains. Overloads differ in their domains; functions that export lists hide from
+//! each other may not.
+
+use program::FunctionId;
+use syntax::Diagnostic;
+
+use crate::build::Builder;
+use crate::coupling::start;
+use crate::fault::bad_coupling;
+use crate::{ABSTRACT, CONCRETE, SIDES};
+
+impl Builder {
+    /// The function of the concrete machine that has the name and the domains of one of the abstract machine, if there is one of that kind.
+    ///
+    /// # Errors
+    /// Several have, and it cannot be told which is meant: export lists can hide them from each other.
+    pub(super) fn counterpart(
+        &self,
+        here: FunctionId,
+        is_meant: fn(&program::Function) -> bool,
+    ) -> Result<Option<FunctionId>, Diagnostic> {
+        let function = self.coupling.programs[ABSTRACT].function(here);
+        let domains = self.domains(ABSTRACT, here);
+        // Those of the model's own file, and the others.
+        let alike = |side: usize| -> (Vec<FunctionId>, Vec<FunctionId>) {
+            let program = &self.coupling.programs[side];
+            let file = program.main.map(|main| program.procedure(main).span.file);
+            let all = (0..).map(FunctionId).zip(&program.functions);
+            let named = all.filter(|(_, one)| one.name == function.name && is_meant(one));
+            let alike = named.map(|(id, _)| id).filter(|id| self.domains(side, *id) == domains);
+            alike.partition(|id| Some(program.function(*id).span.file) == file)
+        };
+        let [(own, others), (their_own, their_others)] = [alike(ABSTRACT), alike(CONCRETE)];
+        // Those of the models' own files belong together, and so do the only ones besides.
+        let (ours, theirs) = match (own.is_empty() || their_own.is_empty(), own.contains(&here)) {
+            (true, _) => ([own, others].concat(), [their_own, their_others].concat()),
+            (false, true) => (own, their_own),
+            (false, false) => (others, their_others),
+        };
+        match (&ours[..], &theirs[..]) {
+            (_, []) => Ok(None),
+            ([_], [there]) => Ok(Some(*there)),
+            _ => {
+                let side = SIDES[if theirs.len() > 1 { CONCRETE } else { ABSTRACT }];
+                let message = format!(
+                    "the {side} machine has several functions `{}` with the same domains, of which a coupling cannot say which it means",
+                    function.name
+                );
+                Err(bad_coupling(start(self.coupling.file), message).with_help("give each a name of its own"))
+            }
+        }
+    }
+}

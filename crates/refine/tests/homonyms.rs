@@ -1,0 +1,100 @@
+//! Functions that share a name: overloads, which differ in their domains, and those that export lists hide from each other.
+
+use std::sync::Arc;
+
+use program::Program;
+use refine::{Coupling, Verdict};
+use syntax::SourceFile;
+use testkit::Texts;
+
+use crate::induction::{proved, refines};
+use crate::small::{machine, refuted, report};
+
+const LOADS: &str = "enum domain Side = {LEFT | RIGHT} enum domain Slot = {UP | DOWN}";
+
+/// A machine of two overloads, in either order, with these values for what is written.
+fn loads(turned: bool, side: &str, slot: &str) -> Arc<Program> {
+    let mut declared = ["controlled load: Side -> Boolean", "controlled load: Slot -> Boolean"];
+    let mut begun = ["function load($s in Side) = false", "function load($s in Slot) = false"];
+    if turned {
+        declared.reverse();
+        begun.reverse();
+    }
+    let rule = format!("main rule r_Main = par load(LEFT) := {side} load(UP) := {slot} endpar");
+    machine(&format!("{LOADS} {}", declared.join(" ")), &rule, &begun.join(" "))
+}
+
+const BOTH: [&str; 2] = ["not load(LEFT)", "not load(UP)"];
+
+#[test]
+fn each_overload_corresponds_to_that_with_its_domains() {
+    let one = loads(false, BOTH[0], BOTH[1]);
+    let couplings = [
+        None,
+        Some("same load;"),
+        Some(
+            "couple (forall $s in Side with abstract.load($s) = concrete.load($s)) and (forall $t in Slot with abstract.load($t) = concrete.load($t));",
+        ),
+    ];
+    for turned in [false, true] {
+        for coupling in couplings {
+            assert_eq!(report(&one, &loads(turned, BOTH[0], BOTH[1]), coupling).verdict, Verdict::Refines);
+            refuted(report(&one, &loads(turned, "load(LEFT)", BOTH[1]), coupling));
+            refuted(report(&one, &loads(turned, BOTH[0], "load(UP)"), coupling));
+        }
+        refines(&one, &loads(turned, BOTH[0], BOTH[1]), "");
+        for other in [loads(turned, "load(LEFT)", BOTH[1]), loads(turned, BOTH[0], "load(UP)")] {
+            let Some(report) = proved(&one, &other, "") else { continue };
+            assert!(!matches!(report.verdict, Verdict::Refines), "{:?}", report.verdict);
+        }
+    }
+}
+
+#[test]
+fn overloaded_inputs_are_shared() {
+    let asks = |turned: bool, side: &str| {
+        let mut declared = ["monitored asked: Side -> Boolean", "monitored asked: Slot -> Boolean"];
+        if turned {
+            declared.reverse();
+        }
+        let signature = format!("{LOADS} {} controlled left: Boolean controlled up: Boolean", declared.join(" "));
+        let rule = format!("main rule r_Main = par left := asked({side}) up := asked(UP) endpar");
+        machine(&signature, &rule, "function left = false function up = false")
+    };
+    for turned in [false, true] {
+        assert_eq!(report(&asks(false, "LEFT"), &asks(turned, "LEFT"), None).verdict, Verdict::Refines);
+        refuted(report(&asks(false, "LEFT"), &asks(turned, "RIGHT"), None));
+    }
+}
+
+/// A machine whose module paints in secret, and maybe has a secret of its own.
+fn painted(module: &str, color: &str, own: &str) -> Arc<Program> {
+    let library = format!(
+        "module Lib import StandardLibrary export r_paint signature: controlled secret: Boolean \
+         definitions: rule r_paint = secret := {color}"
+    );
+    let text = format!(
+        "asm M import StandardLibrary import {module} signature: {own} controlled n: Boolean \
+         definitions: main rule r_Main = par r_paint[] n := not n endpar default init s0: function n = false"
+    );
+    let file = format!("{module}.asm");
+    let library = library.replace("module Lib", &format!("module {module}"));
+    let checked = model::check(SourceFile::new("M.asm", text), &mut Texts::of([(file.as_str(), library.as_str())]));
+    assert!(checked.diagnostics.is_empty(), "{:?}", checked.diagnostics);
+    Arc::new(program::lower(&checked.model).expect("it is lowered"))
+}
+
+#[test]
+fn a_hidden_function_is_compared_with_its_like() {
+    for own in ["", "controlled secret: Boolean"] {
+        let one = painted("Lib", "true", own);
+        assert_eq!(report(&one, &painted("Other", "true", own), None).verdict, Verdict::Refines);
+        refuted(report(&one, &painted("Other", "false", own), None));
+    }
+    // One secret here, two there.
+    let [one, other] = [painted("Lib", "true", ""), painted("Lib", "true", "controlled secret: Boolean")];
+    for pair in [[&one, &other], [&other, &one]] {
+        let faulty = Coupling::new(pair, None, &machine::Limits::default()).expect_err("which one is meant?");
+        assert!(faulty.faults[0].message.contains("several functions `secret`"), "{:?}", faulty.faults);
+    }
+}
