@@ -32,8 +32,7 @@ pub(crate) fn set(
             None => given.push((location.clone(), value.clone())),
         }
         let (place, shown) = (location.show(program), value.show(program));
-        let is_written = location.arguments.iter().chain([value]).all(|value| is_written(program, value));
-        let _ = match is_written {
+        let _ = match is_said(program, location, value) {
             true => writeln!(text, "set {place} := {shown};"),
             false => writeln!(text, "// {place} is {shown} here, {UNSAID}"),
         };
@@ -65,13 +64,22 @@ pub(crate) fn pick(text: &mut String, program: &Program, choice: &ChoiceTaken) {
     let _ = writeln!(text, "// a term chooses {} here, {UNSAID}", values.join(", "));
 }
 
-/// Whether a value can be written as a term: it contains no unnamed element and no rule.
+/// Whether a scenario can say that a location has a value: it sees the function, and a term has each value.
+pub(crate) fn is_said(program: &Program, location: &Location, value: &Value) -> bool {
+    program.function(location.function).seen
+        && location.arguments.iter().chain([value]).all(|value| is_written(program, value))
+}
+
+/// Whether a value can be written as a term: it contains no unnamed element, none with a name that an export list hides, and no rule.
 pub(crate) fn is_written(program: &Program, value: &Value) -> bool {
     match value {
         Value::Element(domain, index) => match &program.domain(*domain).kind {
-            program::DomainKind::Abstract { elements, .. } => (*index as usize) < elements.len(),
+            program::DomainKind::Abstract { elements, .. } => {
+                program.domain(*domain).seen && (*index as usize) < elements.len()
+            }
             _ => false,
         },
+        Value::Enum(domain, _) => program.domain(*domain).seen,
         Value::Rule(_) => false,
         Value::Tuple(items) => items.iter().all(|item| is_written(program, item)),
         Value::Seq(items) | Value::Set(items) => items.iter().all(|item| is_written(program, item)),

@@ -12,7 +12,7 @@ use program::{Builtin, FunctionId, FunctionKind, Program, Term, TermId};
 use simulate::{Decided, Header, Inputs, Options, Run};
 use verify::{Subject, Trace};
 
-use crate::avalla::{UNSAID, is_written, pick, set};
+use crate::avalla::{UNSAID, is_said, pick, set};
 
 /// The run of a counterexample. The header sets the number of steps and how invariants are treated.
 pub fn counterexample_run(program: &Arc<Program>, limits: Limits, trace: &Trace, header: &Header) -> Run {
@@ -77,7 +77,7 @@ fn begin(text: &mut String, program: &Program, values: &[(Location, Value)]) {
     let (said, unsaid): (Vec<_>, Vec<_>) = values
         .iter()
         .filter(|(location, _)| is_own(location))
-        .partition(|(location, value)| location.arguments.iter().chain([value]).all(|part| is_written(program, part)));
+        .partition(|(location, value)| is_said(program, location, value));
     text.push_str("// the initial state, which is one of several\n");
     for (location, _) in unsaid {
         let _ = writeln!(text, "// {} has a value here, {UNSAID}", location.show(program));
@@ -168,14 +168,20 @@ fn rest(text: &mut String, program: &Program, trace: &Trace) {
             None => state.push((change.location.clone(), change.after.clone())),
         }
     }
-    let same: Vec<String> = state
-        .iter()
-        .filter(|(location, _)| program.function(location.function).kind != program::FunctionKind::Monitored)
+    let is_input = |location: &Location| program.function(location.function).kind == program::FunctionKind::Monitored;
+    let own = state.iter().filter(|(location, _)| !is_input(location));
+    let (said, unsaid): (Vec<_>, Vec<_>) = own.partition(|(location, value)| is_said(program, location, value));
+    let same: Vec<String> = said
+        .into_iter()
         .map(|(location, value)| match value {
             Value::Undef => format!("isUndef({})", location.show(program)),
             value => format!("{} = {}", location.show(program), value.show(program)),
         })
         .collect();
-    let same = same.join("\n\tand ");
-    let _ = write!(text, "\n// no step changes this state\ncheck {same};\nstep\ncheck not ({same});\n");
+    let same = if same.is_empty() { "true".to_string() } else { same.join("\n\tand ") };
+    text.push_str("\n// no step changes this state\n");
+    for (location, value) in unsaid {
+        let _ = writeln!(text, "// {} stays {}, {UNSAID}", location.show(program), value.show(program));
+    }
+    let _ = write!(text, "check {same};\nstep\ncheck not ({same});\n");
 }

@@ -63,7 +63,7 @@ struct ShowLocation<'a> {
 
 impl fmt::Display for ShowLocation<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.program.function(self.location.function).name)?;
+        f.write_str(&self.program.function(self.location.function).shown())?;
         if self.location.arguments.is_empty() {
             return Ok(());
         }

@@ -3,6 +3,8 @@
 //! INVARIANT: ids index the tables of the model they come from. Tables are in the order of declaration, imported
 //! files first, so that output made by walking them is the same every time.
 
+use std::collections::BTreeMap;
+
 use syntax::{Diagnostic, FileId, Parse, SourceFile, Sources, Span, Stop};
 
 use crate::declaration::{Definition, Function, Rule, Variable};
@@ -64,6 +66,8 @@ pub struct Model {
     pub inits: Vec<Init>,
     /// The index of the default one in `inits`.
     pub default_init: Option<usize>,
+    /// The names of the modules that it is made of, by their files.
+    pub modules: BTreeMap<FileId, String>,
     /// What the names of the root file mean, so that terms and rules from elsewhere (a scenario, a command line)
     /// can be read as if they stood in it.
     pub names: Names,
@@ -85,6 +89,7 @@ impl Model {
             properties: Vec::new(),
             inits: Vec::new(),
             default_init: None,
+            modules: BTreeMap::new(),
             names: Names::default(),
             uses: Uses::default(),
         }

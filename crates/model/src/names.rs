@@ -84,6 +84,11 @@ impl Names {
         self.rules.iter().flat_map(|(name, ids)| ids.iter().map(move |id| (&**name, *id)))
     }
 
+    /// Whether a function of that name is this one.
+    pub fn sees(&self, name: &str, function: FunctionId) -> bool {
+        self.functions.get(name).is_some_and(|ids| ids.contains(&function))
+    }
+
     /// A reported fault may have hidden names, so a name that is not here may be there all the same.
     pub fn is_incomplete(&self) -> bool {
         self.incomplete

@@ -73,7 +73,7 @@ pub fn read_location(program: &Program, text: &str) -> Result<Location, String> 
     let mut problem = unknown(program, name);
     for (index, function) in program.functions.iter().enumerate().rev() {
         let dynamic = !matches!(function.kind, FunctionKind::Static | FunctionKind::Derived);
-        if function.name != name {
+        if function.shown() != name {
             continue;
         }
         if !dynamic {

@@ -12,6 +12,7 @@ mod documented;
 mod first_steps;
 mod fmt;
 mod followed;
+mod hidden;
 mod input_pages;
 mod interrupts;
 mod lsp;

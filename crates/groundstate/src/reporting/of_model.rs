@@ -94,7 +94,10 @@ pub fn model_specification(program: &Arc<Program>, chart: Option<(&Chart, &str)>
 
 /// Its values are part of the state, and the model writes them.
 fn is_state(function: &Function) -> bool {
-    !function.library && matches!(function.kind, FunctionKind::Controlled | FunctionKind::Out | FunctionKind::Shared)
+    // What the model's own file does not see has no name in a specification.
+    function.seen
+        && !function.library
+        && matches!(function.kind, FunctionKind::Controlled | FunctionKind::Out | FunctionKind::Shared)
 }
 
 fn shown(program: &Program, domain: DomainId) -> Option<Shown> {

@@ -12,7 +12,7 @@ use program::Program;
 use simulate::Record;
 use syntax::Span;
 
-use crate::avalla::{is_written, pick, set};
+use crate::avalla::{is_said, pick, set};
 use crate::session::moment::Moment;
 
 /// LIMIT: steps that are kept.
@@ -89,9 +89,7 @@ impl Notes {
         if taken.step > 0 {
             taken.choices.iter().for_each(|choice| pick(&mut picks, program, choice));
             for change in taken.changes {
-                let written = is_written(program, &change.after)
-                    && change.location.arguments.iter().all(|argument| is_written(program, argument));
-                if written && change.after != Value::Undef {
+                if is_said(program, &change.location, &change.after) && change.after != Value::Undef {
                     let (location, value) = (change.location.show(program), change.after.show(program));
                     let _ = writeln!(checks, "check {location} = {value};");
                 }

@@ -6,7 +6,7 @@ use machine::{Change, Location, Show, Value};
 use program::{FunctionKind, Program};
 use verify::Trace;
 
-use crate::avalla::{is_written, pick, set};
+use crate::avalla::{is_said, pick, set};
 use crate::test_generation::{Generated, Subject};
 
 /// The scenario of a trace.
@@ -40,8 +40,10 @@ pub(super) fn scenario(subject: &Subject<'_>, number: usize, trace: &Trace, goal
 /// Checks the present value of a location, if a term can express it.
 fn check(text: &mut String, program: &Program, location: &Location, value: &Value) {
     let function = program.function(location.function);
-    let said = is_written(program, value) && location.arguments.iter().all(|argument| is_written(program, argument));
-    if !said || function.library || !matches!(function.kind, FunctionKind::Controlled | FunctionKind::Out) {
+    if !is_said(program, location, value)
+        || function.library
+        || !matches!(function.kind, FunctionKind::Controlled | FunctionKind::Out)
+    {
         return;
     }
     let location = location.show(program);

@@ -99,6 +99,11 @@ pub fn check(root: SourceFile, loader: &mut dyn Loader) -> Checked {
     Checked { diagnostics: faults.into_sorted(), model, sources }
 }
 
+fn name_of(unit: &Unit) -> String {
+    let name = unit.tree.machine_name().and_then(|name| name.name());
+    name.map(|token| token.text().to_string()).unwrap_or_default()
+}
+
 struct Checker<'a> {
     /// Looked at before each file and each declaration.
     stop: &'a Stop,
@@ -128,6 +133,7 @@ impl Checker<'_> {
         self.exported.push(exported);
         self.definitions(unit, &names, &rules);
         let (inits, default_init) = init::inits(&mut self.site(&names, unit.file), &unit.tree);
+        self.model.modules.insert(unit.file, name_of(unit));
         if index + 1 == self.units.len() {
             self.root(unit, inits, default_init, names, &rules);
         }
@@ -144,8 +150,7 @@ impl Checker<'_> {
         let model = &mut self.model;
         model.root = unit.file;
         model.asynchronous = unit.tree.is_asynchronous();
-        let name = unit.tree.machine_name().and_then(|name| name.name());
-        model.name = name.map(|token| token.text().to_string()).unwrap_or_default();
+        model.name = name_of(unit);
         model.inits = inits;
         model.default_init = default_init;
         model.names = Arc::unwrap_or_clone(names);

@@ -3,6 +3,8 @@
 //! INVARIANT: the tables of domains and functions are in the order of the model's ids; see [`crate::ir`] for the
 //! arenas.
 
+use std::borrow::Cow;
+
 use model::{DomainId, FunctionId, FunctionKind, Literal, PropertyKind};
 use syntax::Span;
 
@@ -60,8 +62,22 @@ pub struct Function {
     pub element: Option<u32>,
     /// Whether a built-in library declares it.
     pub library: bool,
+    /// Whether the model's own file sees it: what an export list hides can be named neither there nor in a scenario.
+    pub seen: bool,
+    /// The module of a hidden one that shares its name with another function: `NAME.f` where runs are told.
+    pub module: Option<String>,
     /// Where it is declared.
     pub span: Span,
+}
+
+impl Function {
+    /// The name by which runs are told: no other function of as many parameters has it.
+    pub fn shown(&self) -> Cow<'_, str> {
+        match &self.module {
+            Some(module) => format!("{module}.{}", self.name).into(),
+            None => self.name.as_str().into(),
+        }
+    }
 }
 
 /// What a run needs to know of a domain, to list its elements, test membership and print values.
@@ -71,6 +87,8 @@ pub struct Domain {
     pub name: String,
     /// What it is.
     pub kind: DomainKind,
+    /// Whether the model's own file sees its literals, or the names of its elements.
+    pub seen: bool,
 }
 
 /// What a domain is at run time.

@@ -3,7 +3,7 @@
 //! INVARIANT: a domain has the model's id. The contents of a static concrete domain come from its definition, those of
 //! a dynamic one from the initial state. The functions that denote elements give them their names.
 
-use model::{DomainId, Init};
+use model::{DomainId, FunctionKind, Init};
 
 use crate::ir::{Domain, DomainKind};
 use crate::lower::Lowering;
@@ -30,7 +30,23 @@ impl<'m> Lowering<'m, '_> {
                 model::DomainKind::Map(key, value) => DomainKind::Map(*key, *value),
                 model::DomainKind::Rule(parts) => DomainKind::Rule(parts.clone()),
             };
-            self.program.domains.push(Domain { name: self.model.domains.display(id), kind });
+            let names = &self.model.names;
+            let seen = match &kind {
+                DomainKind::Enum { literals } => {
+                    literals.iter().all(|literal| names.literal(literal).is_some_and(|(of, _)| of == id))
+                }
+                DomainKind::Abstract { .. } => {
+                    let is_element = |function: &model::Function| {
+                        function.kind == FunctionKind::Static
+                            && function.parameters.is_empty()
+                            && function.codomain == id
+                    };
+                    let mut elements = self.model.functions().filter(|(_, function)| is_element(function));
+                    elements.all(|(element, function)| function.library || names.sees(&function.name, element))
+                }
+                _ => true,
+            };
+            self.program.domains.push(Domain { name: self.model.domains.display(id), kind, seen });
         }
     }
 

@@ -40,8 +40,17 @@ impl<'m> Lowering<'m, '_> {
 
     /// Adds the functions that the program does not have yet, without definitions.
     pub(super) fn lower_functions(&mut self) {
-        for (_, function) in self.model.functions().skip(self.program.functions.len()) {
+        for (id, function) in self.model.functions().skip(self.program.functions.len()) {
             let element = self.element(function);
+            let seen =
+                function.library || function.kind == FunctionKind::Local || self.model.names.sees(&function.name, id);
+            let is_homonym = |(other, one): (FunctionId, &model::Function)| {
+                other != id && one.name == function.name && one.parameters.len() == function.parameters.len()
+            };
+            let module = match !seen && self.model.functions().any(is_homonym) {
+                true => self.model.modules.get(&function.span.file).cloned(),
+                false => None,
+            };
             self.program.functions.push(Function {
                 name: function.name.clone(),
                 kind: function.kind,
@@ -50,6 +59,8 @@ impl<'m> Lowering<'m, '_> {
                 definition: None,
                 element,
                 library: function.library,
+                seen,
+                module,
                 span: function.span,
             });
             let id = Some(FunctionId(self.program.functions.len() as u32 - 1));
