@@ -4,6 +4,7 @@
 
 import type { Refusal } from './diagram/gestures'
 import type { Branch, JobKind, Kind, Shape } from './diagram/protocol'
+import { FILES } from './file-words'
 import { CHECK, MARKS, OLDER, REFINED } from './found-words'
 import { KEPT, LOST } from './lost-words'
 
@@ -65,7 +66,7 @@ export const words = {
     library: 'Pattern library',
     filter: 'Filter files',
     none: 'No file has this in its name.',
-    new: 'New from a template',
+    new: 'New',
     search: 'Search or run a command',
     searchShort: 'Search',
     readOnly: 'Read only',
@@ -134,9 +135,16 @@ export const words = {
     broken: 'This text cannot be drawn yet',
     brokenHint: 'The faults below the text say why. The picture comes as soon as they are mended.',
     stale: 'The text has a fault: this is the picture before it.',
+    guess: 'The text has a syntax error: this picture is a guess, and may show what nobody wrote.',
     newMachine: 'New machine',
     port: (branch: Branch) => (branch ? `Draw the arrow for ${branch}` : 'Draw an arrow from here'),
     arrow: (from: string, branch: Branch, to: string) => `Arrow from ${from}${branch ? `, ${branch},` : ''} to ${to}`,
+    linking: (from: string, branch: Branch, to: string | null) => {
+      const exit = branch ? `, if ${branch}` : ''
+      const keys = `rrow keys or Tab choose the shape${branch ? ', Y and N the exit' : ''}; Esc leaves.`
+      return to === null ? `Arrow from ${from}${exit}: a${keys}` : `Arrow from ${from}${exit}${branch ? ',' : ''} to ${to}: Enter draws it. A${keys}`
+    },
+    linked: (from: string, branch: Branch, to: string) => `Arrow from ${from}${branch ? `, if ${branch},` : ''} to ${to}.`,
     editText: (id: string) => `Text of ${id}`,
     grow: 'What the arrow leads to',
     context: 'What to do with the shape',
@@ -189,6 +197,8 @@ export const words = {
     label: 'Shapes',
     select: 'Select (Esc)',
     place: (name: string, key: string) => `${name}: click a place, or drag it there (${key})`,
+    inHand: (name: string, from: string | null) =>
+      `${name}: click a place, or press Enter to put it ${from === null ? 'where there is room' : `behind ${from}, with an arrow`}; Esc leaves.`,
     which: 'Of which pattern?',
     instanceOf: (name: string) => `Pattern ${name}`,
     noPattern: 'There is no pattern yet: make one under “New drawing”, or import a chart that has some.',
@@ -292,6 +302,7 @@ export const words = {
     again: 'Run anew',
     location: 'Location',
   },
+  files: FILES,
   refined: REFINED,
   check: CHECK,
   older: OLDER,
@@ -458,7 +469,7 @@ export const words = {
     build: 'Build the model of the chart',
     generate: 'Generate C++',
     newMachine: 'New machine in this chart',
-    newProject: 'New from a template',
+    newProject: 'New from a template, or an empty chart',
     layoutBoth: 'Show picture and text',
     layoutPicture: 'Show the picture only',
     layoutText: 'Show the text only',
@@ -468,12 +479,15 @@ export const words = {
     format: 'Lay out the text',
     keys: 'Show the keys',
     tour: 'Take the tour',
+    renameFile: 'Rename this file',
+    deleteFile: 'Delete this file',
+    extract: 'Draw the chart of the model',
     autoLayout: 'Lay out the drawing anew',
   },
   dialogs: {
     cancel: 'Cancel',
     create: 'Create',
-    newTitle: 'New from a template',
+    newTitle: 'New',
     newName: 'Name',
     newNameHint: 'A letter, then letters and digits',
     badName: 'A name has only a–z, A–Z, digits and _, and begins with a letter.',
@@ -503,7 +517,9 @@ export const words = {
       ['F10 · Shift F10', 'Step, step back'],
     ]],
     ['On the canvas', [
-      ['S · G · A · I', 'State, guard, action, pattern'],
+      ['S · G · A · I · C', 'State, guard, action, pattern, composite state: then a click, or Enter to put it behind the selected shape'],
+      ['E', 'Arrow from the selected shape: arrow keys or Tab, then Enter'],
+      ['Esc', 'Leave what is in the hand'],
       ['Tab', 'From shape to shape'],
       ['Enter', 'Edit the text of a shape'],
       ['Shift Enter', 'Open its drawing'],
@@ -512,6 +528,11 @@ export const words = {
       ['Del', 'Delete'],
       ['F', 'Show all'],
       ['Space and drag', 'Move the paper'],
+    ]],
+    ['In the list of files', [
+      ['F2', 'Rename'],
+      ['Del', 'Delete'],
+      ['Menu key', 'What else can be done'],
     ]],
     ['In the text', [
       ['Ctrl Space', 'Completion'],

@@ -1,10 +1,11 @@
-// The list of files: by folder and kind, filtered by a few letters; below it the pattern library.
+// The list of files: by folder and kind, filtered by a few letters; below it what was deleted, and the pattern library.
 
-import { type ReactNode, useMemo, useState } from 'react'
+import { type KeyboardEvent, type ReactNode, useMemo, useState } from 'react'
 
 import { match } from '../diagram/search'
 import type { File } from '../diagram/protocol'
 import { Icon } from '../editor/icons'
+import { type Item, Menu } from '../editor/Menu'
 import { useStore } from '../editor/store'
 import type { Studio } from '../editor/studio'
 import { words } from '../words'
@@ -43,6 +44,13 @@ export function Sidebar({ studio, hide }: { studio: Studio; hide: () => void }):
     if (!list) return null
     return list.some((fault) => fault.severity === 'error') ? 'error' : list.some((fault) => fault.severity === 'warning') ? 'warning' : null
   }
+  const [menu, setMenu] = useState<{ file: File; at: { x: number; y: number }; from: HTMLElement } | null>(null)
+  const keys = (event: KeyboardEvent, file: File): void => {
+    const kind = ({ F2: 'renameFile', Delete: 'deleteFile' } as const)[event.key]
+    if (!kind || !isOwn(studio, file)) return
+    event.preventDefault()
+    studio.store.set({ dialog: { kind, file } })
+  }
   const line = (file: File): ReactNode => {
     const wrong = worst(file)
     return (
@@ -52,6 +60,14 @@ export function Sidebar({ studio, hide }: { studio: Studio; hide: () => void }):
           aria-current={file.uri === active ? 'page' : undefined}
           title={file.path}
           onClick={() => void studio.open(file.uri)}
+          onKeyDown={(event) => keys(event, file)}
+          onContextMenu={(event) => {
+            event.preventDefault()
+            // The menu key tells no place.
+            const { left, bottom } = event.currentTarget.getBoundingClientRect()
+            const at = event.clientX > 0 ? { x: event.clientX, y: event.clientY } : { x: left + 20, y: bottom }
+            setMenu({ file, at, from: event.currentTarget })
+          }}
         >
           <Icon name={kindIcon(file)} />
           <span className="file-name">{fileName(file)}</span>
@@ -84,13 +100,67 @@ export function Sidebar({ studio, hide }: { studio: Studio; hide: () => void }):
             {group.files.map(line)}
           </Folder>
         ))}
+        <Deleted studio={studio} />
         {library.length > 0 && question.trim() === '' && (
           <Folder name={words.shell.library} forced={active !== null && library.some((file) => file.uri === active)} icon="library">
             {library.map(line)}
           </Folder>
         )}
       </div>
+      {menu && (
+        <Menu
+          at={menu.at}
+          label={words.files.menu(fileName(menu.file))}
+          items={fileItems(studio, menu.file)}
+          close={() => {
+            setMenu(null)
+            menu.from.focus()
+          }}
+        />
+      )}
     </nav>
+  )
+}
+
+const isOwn = (studio: Studio, file: File): boolean => !studio.hello.readOnly && !studio.isLibrary(file.uri)
+
+function fileItems(studio: Studio, file: File): (Item | null)[] {
+  const open: Item = { name: words.files.open, icon: <Icon name={kindIcon(file)} />, key: 'Enter', act: () => void studio.open(file.uri) }
+  if (!isOwn(studio, file)) return [open]
+  const ask = (kind: 'renameFile' | 'deleteFile') => () => studio.store.set({ dialog: { kind, file } })
+  const extract: Item = { name: words.files.extract, icon: <Icon name="chart" />, act: () => void studio.files.extract(file) }
+  return [
+    open,
+    ...(studio.files.mayExtract(file) ? [extract] : []),
+    null,
+    { name: words.files.rename, key: 'F2', act: ask('renameFile') },
+    { name: words.files.ask, key: 'Del', danger: true, icon: <Icon name="trash" />, act: ask('deleteFile') },
+  ]
+}
+
+// What was deleted since the page was opened.
+function Deleted({ studio }: { studio: Studio }): ReactNode {
+  const deleted = useStore(studio.files.store, (state) => state.deleted)
+  if (deleted.length === 0) return null
+  return (
+    <section className="folder deleted" aria-label={words.files.deletedHere}>
+      <h2 className="folder-name">{words.files.deletedHere}</h2>
+      <ul className="folder-files">
+        {deleted.map(({ path }) => {
+          const name = path.split('/').at(-1) ?? path
+          return (
+            <li key={path} className="row">
+              <span className="file-name" title={path}>
+                {name}
+              </span>
+              <button className="small" aria-label={words.files.putBackNamed(name)} onClick={() => void studio.files.putBack(path)}>
+                {words.files.putBack}
+              </button>
+            </li>
+          )
+        })}
+      </ul>
+    </section>
   )
 }
 

@@ -28,6 +28,8 @@ export function TopBar({ studio, sidebar, showSidebar }: { studio: Studio; sideb
   const doc = studio.doc(active)
   const jobs = jobsFor(studio, active)
   const first = jobs.find(({ job }) => job === 'verify') ?? jobs.find(({ job }) => job === 'test' || job === 'refine')
+  const file = doc?.file
+  const chartOf = file && studio.files.mayExtract(file) ? [{ name: words.files.extract, icon: <Icon name="chart" />, act: () => void studio.files.extract(file) }] : []
   return (
     <header className="topbar">
       {!sidebar && (
@@ -103,7 +105,7 @@ export function TopBar({ studio, sidebar, showSidebar }: { studio: Studio; sideb
           {words.run.start}
         </button>
       )}
-      {menu && <Menu at={menu} label={words.shell.more} close={() => setMenu(null)} items={jobs.map(({ job, act }) => ({ name: words.jobs[job], icon: <Icon name={jobIcons[job]} />, act }))} />}
+      {menu && <Menu at={menu} label={words.shell.more} close={() => setMenu(null)} items={[...jobs.map(({ job, act }) => ({ name: words.jobs[job], icon: <Icon name={jobIcons[job]} />, act })), ...chartOf]} />}
     </header>
   )
 }

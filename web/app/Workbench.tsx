@@ -317,6 +317,11 @@ function Notice({ studio }: { studio: Studio }): ReactNode {
     <div key={notice.count} className={`notice ${notice.tone}`} role={notice.tone === 'refused' ? 'alert' : 'status'}>
       <Icon name={notice.tone === 'refused' ? 'warning' : 'check'} size={15} />
       <span>{notice.text}</span>
+      {notice.action && (
+        <button className="small" onClick={notice.action.act}>
+          {notice.action.name}
+        </button>
+      )}
       <button className="quiet" aria-label={words.shell.dismiss} onClick={() => studio.store.set({ notice: null })}>
         <Icon name="close" size={13} />
       </button>

@@ -68,6 +68,14 @@ export function commands(studio: Studio): Command[] {
     )
   }
   if (doc && !doc.readOnly) all.push({ name: words.commands.format, icon: 'text', key: 'Shift Alt F', act: () => void formatDocument(doc.view) })
+  const file = doc && !doc.readOnly ? doc.file : undefined
+  if (file) {
+    all.push(
+      { name: words.commands.renameFile, icon: 'text', act: () => studio.store.set({ dialog: { kind: 'renameFile', file } }) },
+      { name: words.commands.deleteFile, icon: 'trash', act: () => studio.store.set({ dialog: { kind: 'deleteFile', file } }) },
+    )
+  }
+  if (file && studio.files.mayExtract(file)) all.push({ name: words.commands.extract, icon: 'chart', act: () => void studio.files.extract(file) })
   if (!studio.hello.readOnly) all.push({ name: words.commands.newProject, icon: 'plus', act: () => studio.store.set({ dialog: { kind: 'new' } }) })
   all.push(
     { name: words.commands.problems, icon: 'warning', act: () => studio.store.set({ panel: 'problems' }) },

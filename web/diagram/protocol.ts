@@ -52,6 +52,25 @@ export interface Conflict {
   merged: string
 }
 
+// What names a file. A place that follows can be given the file's new name.
+export interface Named {
+  path: string
+  range: Range
+  follows: boolean
+}
+
+export interface Names {
+  places: Named[]
+  // The folder of its C++; its own, if the user arranged it.
+  program: { path: string; isOwn: boolean } | null
+}
+
+export interface Renamed {
+  path: string
+  to: string
+  uri: string
+}
+
 export type Written = { hash: string; text?: string; conflict?: undefined } | { conflict: Conflict }
 
 export interface Changed {
@@ -260,6 +279,8 @@ export interface Pictures {
   version: 1
   drawings: Drawing[]
   problems: string[]
+  // The text has a syntax error, so what is drawn may be what nobody wrote.
+  guess?: boolean
 }
 
 // Operations on a drawing.

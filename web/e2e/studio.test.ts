@@ -403,7 +403,7 @@ test('files, drawings, shapes and commands are found', async () => {
 })
 
 test('a project begins from a template, and a chart with a new machine', async () => {
-  await page.getByRole('button', { name: 'New from a template' }).first().click()
+  await page.getByRole('button', { name: 'New', exact: true }).first().click()
   await page.locator('.card').first().waitFor()
   await shot(page, 'new')
   await page.locator('dialog input.mono').fill('Door')

@@ -14,12 +14,13 @@ import { NOTHING } from '../diagram/pick'
 import type { Drawing, Line, Shape as ShapeKind } from '../diagram/protocol'
 import { words } from '../words'
 import { CanvasBar } from './CanvasBar'
-import { useBeyond, useDetail, useFit, useKeptWhole, useLitInView } from './fit'
+import { useBeyond, useDetail, useFit, useGoTo, useKeptWhole, useLitInView, useSee } from './fit'
 import type { Chart } from './chart'
 import { type Dropped, useConnecting } from './connect'
 import { Icon } from './icons'
 import { canvasKey } from './keys'
 import { Holds, Lines } from './Lines'
+import { useLinking } from './linking'
 import { Menu } from './Menu'
 import { useNodes } from './nodes'
 import { Palette, useTool } from './Palette'
@@ -85,6 +86,7 @@ function Shown({ studio, chart, drawing }: { studio: Studio; chart: Chart; drawi
   const revealed = useStore(chart.store, (state) => state.revealed)
   const refusals = useStore(chart.store, (state) => state.refusals)
   const stale = useStore(chart.store, (state) => state.stale)
+  const guess = useStore(chart.store, (state) => state.pictures?.guess === true)
   const faults = useStore(studio.store, (state) => state.faults.get(uri) ?? NO_FAULTS)
   const run = useShownRun(studio, drawing, uri)
   const [moving, setMoving] = useState<Moving | null>(null)
@@ -116,8 +118,13 @@ function Shown({ studio, chart, drawing }: { studio: Studio; chart: Chart; drawi
   useKeptWhole(beyond, fit)
   useLitInView(drawing, run.lit)
   const detail = useDetail()
-  const { drawn, begin, grip } = useConnecting(studio, chart, toFlow, setDrop)
+  const connecting = useConnecting(studio, chart, toFlow, setDrop)
+  const { begin, grip } = connecting
   const tool = useTool(studio, chart, drawing, toFlow)
+  const see = useSee(drawing)
+  const linking = useLinking(studio, chart, drawing, see)
+  const drawn = connecting.drawn ?? linking.drawn
+  const goTo = useGoTo(drawing, see)
 
   const acts = useMemo<Acts>(
     () => ({
@@ -151,12 +158,7 @@ function Shown({ studio, chart, drawing }: { studio: Studio; chart: Chart; drawi
   // What was selected in the text is brought into view.
   useEffect(() => {
     const id = selection.boxes[0] ?? (selection.lines[0] !== undefined ? drawing.picture.boxes[drawing.picture.lines[selection.lines[0]]?.from ?? -1]?.id : undefined)
-    const box = drawing.picture.boxes.find((box) => box.id === id)
-    const rect = canvas.current?.getBoundingClientRect()
-    if (revealed === 0 || !box || !rect) return
-    const at = flow.flowToScreenPosition({ x: box.x + box.width / 2, y: box.y + box.height / 2 })
-    const inside = at.x > rect.left + 20 && at.x < rect.right - 20 && at.y > rect.top + 20 && at.y < rect.bottom - 20
-    if (!inside) void flow.setCenter(box.x + box.width / 2, box.y + box.height / 2, { zoom: flow.getZoom(), duration: 180 })
+    if (revealed > 0 && id !== undefined) see(id)
     // Only a new place in the text moves the canvas.
   }, [revealed])
 
@@ -246,7 +248,7 @@ function Shown({ studio, chart, drawing }: { studio: Studio; chart: Chart; drawi
 
   const lineName = useCallback(
     (line: Line) => {
-      const said = (index: number): string => drawing.picture.boxes[index]?.lines.join(' ') || drawing.picture.boxes[index]?.id || ''
+      const said = (index: number): string => saidOf(drawing, drawing.picture.boxes[index]?.id)
       return words.canvas.arrow(said(line.from), line.branch, said(line.to))
     },
     [drawing],
@@ -254,7 +256,7 @@ function Shown({ studio, chart, drawing }: { studio: Studio; chart: Chart; drawi
 
   const keys = (event: KeyboardEvent): void => {
     if ((event.target as HTMLElement).closest('textarea, input, .cm-editor')) return
-    canvasKey(event, { studio, chart, drawing, tool, nudge, edit: (id) => setEditing(id), open, fit: () => fit(180), at: pointer.current, zoom: (by) => void (by > 0 ? flow.zoomIn({ duration: 120 }) : flow.zoomOut({ duration: 120 })) })
+    canvasKey(event, { studio, chart, drawing, tool, linking, goTo, nudge, edit: (id) => setEditing(id), open, fit: () => fit(180), at: pointer.current, zoom: (by) => void (by > 0 ? flow.zoomIn({ duration: 120 }) : flow.zoomOut({ duration: 120 })) })
   }
 
   return (
@@ -270,6 +272,7 @@ function Shown({ studio, chart, drawing }: { studio: Studio; chart: Chart; drawi
         }}
         onPointerLeave={() => (pointer.current = null)}
         onPointerDown={(event) => {
+          linking.leave()
           if (!(event.target as HTMLElement).closest('button, textarea, input, .react-flow__node')) canvas.current?.focus({ preventScroll: true })
         }}
       >
@@ -330,12 +333,17 @@ function Shown({ studio, chart, drawing }: { studio: Studio; chart: Chart; drawi
         </ReactFlow>
         {!readOnly && <Palette tool={tool} drawing={drawing} />}
         <CanvasBar studio={studio} chart={chart} drawing={drawing} />
-        {stale && (
-          <div className="stale-note" role="status">
-            <Icon name="warning" size={14} />
-            {words.canvas.stale}
-          </div>
-        )}
+        <div className={`stale-note${stale ? '' : ' guess'}`} role="status">
+          {(stale || guess) && (
+            <>
+              <Icon name="warning" size={14} />
+              {stale ? words.canvas.stale : words.canvas.guess}
+            </>
+          )}
+        </div>
+        <p className="hand-note" role="status">
+          {linking.note ?? (tool.shape && words.palette.inHand(words.shapes[tool.shape], selection.boxes.length === 1 ? saidOf(drawing, selection.boxes[0]) : null))}
+        </p>
         {drop && (
           <Menu
             at={drop.screen}
@@ -343,7 +351,7 @@ function Shown({ studio, chart, drawing }: { studio: Studio; chart: Chart; drawi
             close={() => setDrop(null)}
             items={growItems(drawing, (shape, of) => {
               const at: [number, number] = [Math.round(drop.at[0] / GRID) * GRID, Math.round(drop.at[1] / GRID) * GRID]
-              void chart.grow({ kind: 'add', shape, at, ...(of === undefined ? {} : { of }) }, drop.arrow)
+              void chart.grow({ kind: 'add', shape, at, ...(of === undefined ? {} : { of }) }, (to) => ({ ...drop.arrow, to }))
             }, (to) => void chart.operate({ kind: 'connect', ...drop.arrow, to }, { select: false }), tool.patterns)}
           />
         )}
@@ -352,6 +360,8 @@ function Shown({ studio, chart, drawing }: { studio: Studio; chart: Chart; drawi
     </ActsContext>
   )
 }
+
+const saidOf = (drawing: Drawing, id: string | undefined): string => drawing.picture.boxes.find((box) => box.id === id)?.lines.join(' ') || (id ?? '')
 
 function growItems(drawing: Drawing, add: (shape: ShapeKind, of?: string) => void, exit: (to: string) => void, patterns: string[]) {
   if (drawing.kind === 'system') return [{ name: words.shapes.component, icon: <Icon name="component" />, act: () => add('component') }]

@@ -1,35 +1,18 @@
-// The dialogs: new project, new drawing, rename, keys; and the frame that all of them have.
+// The dialogs, each with the frame of its own file or of this one: new drawing, rename, keys, what is to be decided.
 
-import { type FormEvent, type ReactNode, useEffect, useRef, useState } from 'react'
+import { type FormEvent, type ReactNode, useState } from 'react'
 
 import type { File } from '../diagram/protocol'
 import { status } from '../diagram/sync'
 import { words } from '../words'
+import { DeleteFile, RenameFile } from './FileDialogs'
+import { Buttons, Frame } from './Frame'
+import { NAME, NewProject } from './NewProject'
 import { Icon } from './icons'
 import { type OfChart, buildFirst, lastName } from './ofChart'
 import { type Command, Search } from './Search'
 import { useStore } from './store'
 import type { Studio } from './studio'
-
-const NAME = /^[A-Za-z]\w*$/
-
-export function Frame({ label, close, wide, children }: { label: string; close: () => void; wide?: boolean; children: ReactNode }): ReactNode {
-  const dialog = useRef<HTMLDialogElement>(null)
-  useEffect(() => {
-    dialog.current?.showModal()
-  }, [])
-  return (
-    <dialog
-      ref={dialog}
-      className={wide ? 'frame wide' : 'frame'}
-      aria-label={label}
-      onClose={close}
-      onPointerDown={(event) => event.target === dialog.current && dialog.current?.close()}
-    >
-      {children}
-    </dialog>
-  )
-}
 
 export function Dialogs({ studio, commands }: { studio: Studio; commands: Command[] }): ReactNode {
   const dialog = useStore(studio.store, (state) => state.dialog)
@@ -48,6 +31,10 @@ export function Dialogs({ studio, commands }: { studio: Studio; commands: Comman
       return <NewMachine studio={studio} uri={dialog.uri} close={close} />
     case 'rename':
       return <Rename studio={studio} dialog={dialog} close={close} />
+    case 'renameFile':
+      return <RenameFile studio={studio} file={dialog.file} close={close} />
+    case 'deleteFile':
+      return <DeleteFile studio={studio} file={dialog.file} close={close} />
     case 'older':
       return <Older studio={studio} asked={dialog.asked} model={dialog.model} state={dialog.state} close={close} />
     case 'closing':
@@ -55,53 +42,6 @@ export function Dialogs({ studio, commands }: { studio: Studio; commands: Comman
     case 'keys':
       return <Keys close={close} />
   }
-}
-
-function Buttons({ act, enabled, close }: { act: string; enabled: boolean; close: () => void }): ReactNode {
-  return (
-    <footer className="row">
-      <span className="grow" />
-      <button type="button" onClick={close}>
-        {words.dialogs.cancel}
-      </button>
-      <button type="submit" className="primary" disabled={!enabled}>
-        {act}
-      </button>
-    </footer>
-  )
-}
-
-function NewProject({ studio, close }: { studio: Studio; close: () => void }): ReactNode {
-  const templates = useStore(studio.store, (state) => state.hello?.templates) ?? []
-  const [template, setTemplate] = useState(templates[0]?.name ?? '')
-  const [name, setName] = useState('')
-  const good = NAME.test(name)
-  const submit = (event: FormEvent): void => {
-    event.preventDefault()
-    if (good) void studio.create(template, name).then((done) => done && close())
-  }
-  return (
-    <Frame label={words.dialogs.newTitle} close={close}>
-      <form className="dialog" onSubmit={submit}>
-        <h2>{words.dialogs.newTitle}</h2>
-        <div className="cards" role="radiogroup" aria-label={words.dialogs.newTitle}>
-          {templates.map((known) => (
-            <label key={known.name} className={`card${known.name === template ? ' on' : ''}`}>
-              <input type="radio" name="template" checked={known.name === template} onChange={() => setTemplate(known.name)} />
-              <b>{known.name}</b>
-              <span>{known.title}</span>
-            </label>
-          ))}
-        </div>
-        <label className="field">
-          <span>{words.dialogs.newName}</span>
-          <input autoFocus className="mono" value={name} placeholder={words.dialogs.newNameHint} onChange={(event) => setName(event.target.value)} />
-        </label>
-        {name !== '' && !good && <p className="note bad">{words.dialogs.badName}</p>}
-        <Buttons act={words.dialogs.create} enabled={good && template !== ''} close={close} />
-      </form>
-    </Frame>
-  )
 }
 
 function NewMachine({ studio, uri, close }: { studio: Studio; uri: string; close: () => void }): ReactNode {

@@ -7,7 +7,8 @@ import { type PointerEvent as ReactPointerEvent, type ReactNode, useEffect, useM
 
 import { GRID, snapped } from '../diagram/arrange'
 import { toolsFor } from '../diagram/gestures'
-import type { Box, Drawing, Figure, Shape as ShapeKind } from '../diagram/protocol'
+import { arrowBehind, mayBegin, roomBehind } from '../diagram/behind'
+import type { Box, Drawing, Figure, Operation, Shape as ShapeKind } from '../diagram/protocol'
 import { words } from '../words'
 import type { Chart } from './chart'
 import { Icon } from './icons'
@@ -25,6 +26,8 @@ export interface Tool {
   arm: (shape: ShapeKind | null) => void
   take: (shape: ShapeKind, event: ReactPointerEvent) => void
   place: (at: { x: number; y: number }) => void
+  // Places it behind a shape, joined by an arrow; without one, where there is room.
+  placeBehind: (from: Box | null) => Promise<string | null>
   contextItems: (edit: () => void, open: (id: string) => void) => (Item | null)[]
 }
 
@@ -71,7 +74,7 @@ export function useTool(
 ): Tool {
   const [shape, setShape] = useState<ShapeKind | null>(null)
   const [at, setAt] = useState<{ x: number; y: number } | null>(null)
-  const [asking, setAsking] = useState<{ screen: { x: number; y: number }; at: [number, number] } | null>(null)
+  const [asking, setAsking] = useState<{ screen: { x: number; y: number }; choose: (of: string) => void } | null>(null)
   const pictures = useStore(chart.store, (state) => state.pictures)
   const pressed = useRef<{ x: number; y: number } | null>(null)
 
@@ -87,6 +90,14 @@ export function useTool(
     void chart.operate({ kind: 'add', shape, at: place, ...(of === undefined ? {} : { of }) })
   }
 
+  // Of which pattern an instance is to be; null if there is none.
+  const which = (screen: { x: number; y: number }): Promise<string | null> => {
+    const [only] = patterns
+    if (only === undefined) studio.tell(words.palette.noPattern, 'refused')
+    if (only === undefined || patterns.length === 1) return Promise.resolve(only ?? null)
+    return new Promise((choose) => setAsking({ screen, choose }))
+  }
+
   const place = (screen: { x: number; y: number }): void => {
     if (!shape) return
     const { x, y } = toFlow(screen)
@@ -94,10 +105,21 @@ export function useTool(
     setShape(null)
     setAt(null)
     if (shape !== 'instance') return add(shape, where)
-    const [only] = patterns
-    if (only === undefined) return studio.tell(words.palette.noPattern, 'refused')
-    if (patterns.length === 1) return add('instance', where, only)
-    setAsking({ screen, at: where })
+    void which(screen).then((of) => of !== null && add('instance', where, of))
+  }
+
+  const placeBehind = async (from: Box | null): Promise<string | null> => {
+    if (!shape) return null
+    setShape(null)
+    setAt(null)
+    const rect = document.querySelector('.canvas')?.getBoundingClientRect()
+    const of = shape === 'instance' ? await which({ x: (rect?.left ?? 0) + 80, y: (rect?.top ?? 0) + 80 }) : undefined
+    if (of === null) return null
+    const [, width, height] = FIGURES[shape]
+    const [x, y] = roomBehind(drawing, from, [width, height])
+    const operation: Operation = { kind: 'add', shape, at: [x, y], ...(of === undefined ? {} : { of }) }
+    if (from && mayBegin(from)) return chart.grow(operation, (id) => arrowBehind(drawing, from, shape, id))
+    return (await chart.operate(operation))?.[0] ?? null
   }
 
   // The ghost follows the pointer; letting go over the canvas after a drag places the shape.
@@ -137,7 +159,7 @@ export function useTool(
           at={asking.screen}
           label={words.palette.which}
           close={() => setAsking(null)}
-          items={patterns.map((name) => ({ name, icon: <Icon name="instance" />, act: () => add('instance', asking.at, name) }))}
+          items={patterns.map((name) => ({ name, icon: <Icon name="instance" />, act: () => asking.choose(name) }))}
         />
       )}
     </>
@@ -184,6 +206,7 @@ export function useTool(
       setAt(null)
     },
     place,
+    placeBehind,
     contextItems,
   }
 }
@@ -209,7 +232,12 @@ export function Palette({ tool, drawing }: { tool: Tool; drawing: Drawing }): Re
           title={words.palette.place(words.shapes[shape], key.toUpperCase())}
           aria-label={words.shapes[shape]}
           onPointerDown={(event) => event.button === 0 && tool.take(shape, event)}
-          onClick={(event) => event.detail === 0 && tool.arm(shape)}
+          onClick={(event) => {
+            if (event.detail !== 0) return
+            tool.arm(shape)
+            // By the keyboard: what comes next is meant for the picture.
+            event.currentTarget.closest<HTMLElement>('.canvas')?.focus()
+          }}
         >
           <Icon name={shape} size={20} />
           <kbd>{key.toUpperCase()}</kbd>

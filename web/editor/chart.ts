@@ -187,11 +187,13 @@ export class Chart {
     })
   }
 
-  // A new shape at the end of a new arrow.
-  async grow(add: Operation, arrow: Omit<Arrow, 'to'>): Promise<void> {
+  // A new shape, and the arrow between it and what is there. Out: its id.
+  async grow(add: Operation, arrow: (id: string) => Arrow): Promise<string | null> {
+    let id: string | undefined
     await this.doc.grouped(async () => {
-      const id = (await this.operate(add))?.[0]
-      if (id !== undefined) await this.operate({ kind: 'connect', ...arrow, to: id }, { select: false })
+      id = (await this.operate(add))?.[0]
+      if (id !== undefined) await this.operate({ kind: 'connect', ...arrow(id) }, { select: false })
     })
+    return id ?? null
   }
 }

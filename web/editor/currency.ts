@@ -28,6 +28,12 @@ export class Currency {
     studio.jobs.store.subscribe(() => this.later())
   }
 
+  // A file has another name, or none.
+  gone(path: string): void {
+    this.hashes.set(path, null)
+    this.later()
+  }
+
   later(): void {
     this.timer ??= setTimeout(() => this.look(), AFTER_MS)
   }

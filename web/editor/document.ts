@@ -4,7 +4,7 @@
 // the single document. What the canvas does comes here as changes of the text, each one transaction.
 
 import { autocompletion, closeBrackets, closeBracketsKeymap, completionKeymap } from '@codemirror/autocomplete'
-import { defaultKeymap, history, historyKeymap, indentWithTab, isolateHistory, redo, redoDepth, undo, undoDepth } from '@codemirror/commands'
+import { defaultKeymap, history, historyField, historyKeymap, indentWithTab, isolateHistory, redo, redoDepth, undo, undoDepth } from '@codemirror/commands'
 import { bracketMatching, codeFolding, foldGutter, foldKeymap, indentUnit } from '@codemirror/language'
 import { type Diagnostic, lintKeymap, setDiagnostics } from '@codemirror/lint'
 import { LSPPlugin, formatKeymap, findReferencesKeymap, hoverTooltips, jumpToDefinitionKeymap, serverCompletion, signatureHelp } from '@codemirror/lsp-client'
@@ -36,6 +36,7 @@ export class Doc {
   readonly store: Store<DocState>
   readonly view: EditorView
   private timer: ReturnType<typeof setTimeout> | undefined
+  private ended = false
   // Since when a write waits.
   private waits: number | null = null
   // While a conflict is decided: the text as it is being put together.
@@ -52,10 +53,17 @@ export class Doc {
     text: string,
     hash: string | null,
     readonly readOnly: boolean,
+    // The document that goes on in this one, because its file has another name.
+    former?: Doc,
   ) {
-    this.store = new Store<DocState>({ sync: opened(text, hash ?? ''), undos: 0, redos: 0 })
-    const state = EditorState.create({ doc: text, extensions: this.extensions() })
+    const before = former?.store.get() ?? { sync: opened(text, hash ?? ''), undos: 0, redos: 0 }
+    this.store = new Store<DocState>({ ...before, sync: { ...before.sync, sent: null, passed: false } })
+    const config = { extensions: this.extensions() }
+    const state = former
+      ? EditorState.fromJSON(former.view.state.toJSON({ history: historyField }), config, { history: historyField })
+      : EditorState.create({ ...config, doc: text })
     this.view = new EditorView({ state })
+    this.mine = former?.mine ?? null
   }
 
   private extensions() {
@@ -232,9 +240,7 @@ export class Doc {
   // Agreement with the file.
 
   event(event: SyncEvent): void {
-    if (this.readOnly) {
-      return
-    }
+    if (this.readOnly || this.ended) return
     const { state, effects } = turn(this.store.get().sync, event)
     this.store.set({ sync: state })
     for (const effect of effects) this.act(effect)
@@ -302,6 +308,7 @@ export class Doc {
   }
 
   destroy(): void {
+    this.ended = true
     clearTimeout(this.timer)
     this.view.destroy()
   }

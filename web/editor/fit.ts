@@ -1,9 +1,9 @@
 // Showing all of a drawing: its arrows, too, and beside the bars that lie on the canvas.
 
 import { getViewportForBounds, useReactFlow, useStore, useStoreApi } from '@xyflow/react'
-import { useCallback, useEffect, useRef } from 'react'
+import { useCallback, useEffect, useRef, useState } from 'react'
 
-import { bounds } from '../diagram/geometry'
+import { bounds, centre } from '../diagram/geometry'
 import type { Drawing } from '../diagram/protocol'
 import type { Chart } from './chart'
 
@@ -48,6 +48,45 @@ export function useLitInView(drawing: Drawing, lit: ReadonlyMap<string, unknown>
     if (width > 0 && first && !inView) void flow.setCenter(...middle(first), { zoom, duration: 180 })
     // What is lit is told by `shown`; the same is a new map after each step.
   }, [drawing, flow, shown, size, store])
+}
+
+// Brings a shape into view, if it is not there.
+export function useSee(drawing: Drawing): (id: string) => void {
+  const flow = useReactFlow()
+  const store = useStoreApi()
+  return useCallback(
+    (id) => {
+      const box = drawing.picture.boxes.find((box) => box.id === id)
+      const { width, height, transform } = store.getState()
+      const [left, top, zoom] = transform
+      if (!box || width === 0) return
+      const [x, y] = centre(box)
+      const [at, down] = [x * zoom + left, y * zoom + top]
+      const inside = at > 20 && at < width - 20 && down > 20 && down < height - 20
+      if (!inside) void flow.setCenter(x, y, { zoom, duration: 180 })
+    },
+    [drawing, flow, store],
+  )
+}
+
+// Brings a shape into view and gives it the focus, as soon as it is drawn.
+export function useGoTo(drawing: Drawing, see: (id: string) => void): (id: string) => void {
+  const [wanted, setWanted] = useState<string | null>(null)
+  useEffect(() => {
+    if (wanted === null || !drawing.picture.boxes.some(({ id }) => id === wanted)) return
+    see(wanted)
+    let frame = 0
+    // A new shape is measured before it is there for the eyes.
+    const focus = (tries: number): void => {
+      const node = document.querySelector<HTMLElement>(`.react-flow__node[data-id="${wanted}"]`)
+      node?.focus({ preventScroll: true })
+      if (document.activeElement === node || tries === 0) setWanted(null)
+      else frame = requestAnimationFrame(() => focus(tries - 1))
+    }
+    focus(30)
+    return () => cancelAnimationFrame(frame)
+  }, [drawing, see, wanted])
+  return setWanted
 }
 
 // Whether some of a drawing lies outside of what is shown: then an overview helps.

@@ -13,6 +13,7 @@ import type { Drawing } from '../diagram/protocol'
 import { words } from '../words'
 import type { Chart } from './chart'
 import type { Tool } from './Palette'
+import type { Linking } from './linking'
 import type { Studio } from './studio'
 
 export interface CanvasActs {
@@ -20,6 +21,9 @@ export interface CanvasActs {
   chart: Chart
   drawing: Drawing
   tool: Tool
+  linking: Linking
+  // Brings a new shape into view, and the keys to it.
+  goTo: (id: string) => void
   nudge: (dx: number, dy: number) => void
   edit: (id: string) => void
   open: (id: string) => void
@@ -78,7 +82,7 @@ export function selectAll(chart: Chart): void {
 }
 
 export function canvasKey(event: KeyboardEvent, acts: CanvasActs): void {
-  const { studio, chart, drawing, tool } = acts
+  const { studio, chart, drawing, tool, linking } = acts
   const { selection } = chart.store.get()
   const readOnly = chart.doc.readOnly
   const done = (): void => {
@@ -91,6 +95,7 @@ export function canvasKey(event: KeyboardEvent, acts: CanvasActs): void {
   const control = event.ctrlKey || event.metaKey
   const key = event.key.length === 1 ? event.key.toLowerCase() : event.key
 
+  if (!control && !event.altKey && linking.key(event)) return done()
   if (control && !event.altKey) {
     switch (key) {
       case 'a':
@@ -129,6 +134,11 @@ export function canvasKey(event: KeyboardEvent, acts: CanvasActs): void {
       return chart.select(NOTHING)
     case 'Enter':
       if ((event.target as HTMLElement).closest('button')) return
+      if (tool.shape) {
+        done()
+        const from = drawing.picture.boxes.find((box) => box.id === one) ?? null
+        return void tool.placeBehind(from).then((id) => id !== null && acts.goTo(id))
+      }
       if (one === undefined) return
       done()
       if (event.shiftKey) return acts.open(one)
@@ -138,6 +148,10 @@ export function canvasKey(event: KeyboardEvent, acts: CanvasActs): void {
       if (focused === undefined) return
       done()
       return chart.select({ boxes: [focused], lines: [] })
+    case 'e':
+      if (one === undefined || readOnly || event.shiftKey) return
+      done()
+      return linking.begin(one)
     case 'F2':
       done()
       return void document.querySelector<HTMLInputElement>('.inspector input[name="name"]')?.focus()
@@ -156,6 +170,7 @@ export function canvasKey(event: KeyboardEvent, acts: CanvasActs): void {
   const wanted = toolsFor(drawing.kind).find((known) => known.key === key)
   if (wanted && !readOnly && !event.shiftKey) {
     done()
+    linking.leave()
     tool.arm(wanted.shape)
   }
 }

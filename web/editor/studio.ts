@@ -3,10 +3,7 @@
 // Owns: opening and closing, which file and drawing is in front, the address of both, renaming in all files, notices. In: the
 // server. It must not know how anything looks.
 
-import { LSPClient, Workspace, type WorkspaceFile } from '@codemirror/lsp-client'
-import type { Text, TransactionSpec } from '@codemirror/state'
-import type { EditorView } from '@codemirror/view'
-import { LSPPlugin } from '@codemirror/lsp-client'
+import { LSPClient } from '@codemirror/lsp-client'
 
 import { type Fault, type Severity, isSame } from '../diagram/pick'
 import type { Changed, File, Hello, Place, Range, TextEdit } from '../diagram/protocol'
@@ -16,6 +13,7 @@ import { words } from '../words'
 import { Chart } from './chart'
 import { Currency } from './currency'
 import { Doc } from './document'
+import { Files } from './files'
 import { Jobs } from './jobs'
 import { Marks } from './marks'
 import type { OfChart } from './ofChart'
@@ -25,6 +23,7 @@ import { sanitized } from './sanitize'
 import { quiet } from './quiet'
 import { type Online, type Server, type Transport, isLost } from './server'
 import { Store } from './store'
+import { Texts } from './texts'
 
 export type Layout = 'both' | 'picture' | 'text'
 export type Panel = 'problems' | 'run' | 'timeline' | 'check' | 'graph' | 'times' | 'code'
@@ -34,6 +33,7 @@ export type Dialog =
   | { kind: 'keys' }
   | { kind: 'rename'; old: string; uri: string; at: { line: number; character: number } }
   | { kind: 'machine'; uri: string }
+  | { kind: 'renameFile' | 'deleteFile'; file: File }
   // A text that is in no file is to be closed.
   | { kind: 'closing'; uri: string }
   // The model of a chart is not the one that it would be built to.
@@ -42,6 +42,8 @@ export type Dialog =
 export interface Notice {
   text: string
   tone: 'told' | 'refused'
+  // What can be done about it.
+  action: { name: string; act: () => void } | null
   count: number
 }
 
@@ -83,64 +85,6 @@ const PATIENCE_MS = 6000
 
 const SEVERITIES: Severity[] = ['error', 'error', 'warning', 'info', 'hint']
 
-// The files that the language client knows: one view each.
-class Texts extends Workspace {
-  files: (WorkspaceFile & { view: EditorView })[] = []
-  private versions = new Map<string, number>()
-
-  constructor(
-    client: LSPClient,
-    private readonly studio: Studio,
-  ) {
-    super(client)
-  }
-
-  private version(uri: string): number {
-    const version = (this.versions.get(uri) ?? -1) + 1
-    this.versions.set(uri, version)
-    return version
-  }
-
-  syncFiles() {
-    if (this.studio.server.online !== 'open') return []
-    const updates = []
-    for (const file of this.files) {
-      const plugin = LSPPlugin.get(file.view)
-      if (!plugin || plugin.unsyncedChanges.empty) continue
-      updates.push({ changes: plugin.unsyncedChanges, file, prevDoc: file.doc })
-      file.doc = file.view.state.doc
-      file.version = this.version(file.uri)
-      plugin.clear()
-    }
-    return updates
-  }
-
-  openFile(uri: string, languageId: string, view: EditorView): void {
-    const doc: Text = view.state.doc
-    const file = { uri, languageId, version: this.version(uri), doc, view, getView: () => view }
-    this.files.push(file)
-    this.client.didOpen(file)
-  }
-
-  closeFile(uri: string): void {
-    this.files = this.files.filter((file) => file.uri !== uri)
-    this.client.didClose(uri)
-  }
-
-  override async requestFile(uri: string): Promise<WorkspaceFile | null> {
-    await this.studio.document(uri)
-    return this.getFile(uri)
-  }
-
-  override updateFile(uri: string, update: TransactionSpec): void {
-    this.getFile(uri)?.getView()?.dispatch(update)
-  }
-
-  override async displayFile(uri: string): Promise<EditorView | null> {
-    return (await this.studio.open(uri))?.view ?? null
-  }
-}
-
 export class Studio {
   readonly store = new Store<StudioState>({
     online: 'connecting',
@@ -165,6 +109,7 @@ export class Studio {
   readonly marks: Marks
   readonly currency: Currency
   readonly rescue: Rescue
+  readonly files: Files
   private readonly docs = new Map<string, Doc>()
   private readonly charts = new Map<string, Chart>()
   private readonly opening = new Map<string, Promise<Doc | null>>()
@@ -195,6 +140,7 @@ export class Studio {
     this.marks = new Marks(this)
     this.currency = new Currency(this)
     this.rescue = new Rescue(this)
+    this.files = new Files(this)
     this.store.set({ online: server.online, hello, files: hello.files })
     this.transport = quiet(server.transport)
     this.client.connect(this.transport)
@@ -303,8 +249,8 @@ export class Studio {
     this.docs.get(uri)?.diagnose(faults)
   }
 
-  tell(text: string, tone: Notice['tone'] = 'told'): void {
-    this.store.set({ notice: { text, tone, count: ++this.notices } })
+  tell(text: string, tone: Notice['tone'] = 'told', action: Notice['action'] = null): void {
+    this.store.set({ notice: { text, tone, action, count: ++this.notices } })
   }
 
   // Files.
@@ -365,26 +311,60 @@ export class Studio {
       const { text, hash } = await this.server.request<{ text: string; hash?: string }>('studio/read', params)
       const readOnly = !own || this.hello.readOnly
       const doc = new Doc(this, file, text, hash ?? null, readOnly)
-      this.docs.set(uri, doc)
-      doc.onText.push(() => {
-        if (this.found.delete(uri)) this.merge(uri)
-        this.marks.drop(uri)
-      })
-      doc.store.subscribe(() => this.currency.later())
-      if (!readOnly) {
-        this.rescue.watch(doc)
-        this.rescue.restore(doc)
-      }
-      if (file.kind === 'chart') this.charts.set(uri, new Chart(this, doc))
-      const faults = this.store.get().faults.get(uri)
-      if (faults) doc.diagnose(faults)
-      this.runner.markAgain()
-      this.store.set((state) => ({ opened: state.opened + 1 }))
+      this.begin(doc)
       return doc
     } catch (error) {
       this.tell((error as Error).message, 'refused')
       return null
     }
+  }
+
+  private begin(doc: Doc): void {
+    const { file } = doc
+    const { uri } = file
+    this.docs.set(uri, doc)
+    doc.onText.push(() => {
+      if (this.found.delete(uri)) this.merge(uri)
+      this.marks.drop(uri)
+    })
+    doc.store.subscribe(() => this.currency.later())
+    if (!doc.readOnly) {
+      this.rescue.watch(doc)
+      this.rescue.restore(doc)
+    }
+    if (file.kind === 'chart') this.charts.set(uri, new Chart(this, doc))
+    const faults = this.store.get().faults.get(uri)
+    if (faults) doc.diagnose(faults)
+    this.runner.markAgain()
+    this.store.set((state) => ({ opened: state.opened + 1 }))
+  }
+
+  // A file has another name: what is open of it goes on under that, with what was typed and can be undone.
+  follow(path: string, file: File): void {
+    const old = this.openDocs.find((doc) => doc.file.path === path)
+    const named = <T extends { uri: string }>(one: T): T => (old && one.uri === old.file.uri ? { ...one, uri: file.uri } : one)
+    this.store.set(({ files }) => ({ files: files.map((one) => (one.path === path ? file : one)) }))
+    this.currency.gone(path)
+    if (!old) return
+    const { uri } = old.file
+    const shown = this.charts.get(uri)?.store.get().shown
+    this.forget(old)
+    const doc = new Doc(this, file, old.text, null, old.readOnly, old)
+    this.begin(doc)
+    if (typeof shown === 'string') this.charts.get(file.uri)?.turnTo(shown)
+    this.rescue.now(doc)
+    this.rescue.drop(path)
+    // What the file holds now, and what is to be written.
+    doc.event({ kind: 'online' })
+    this.told.delete(uri)
+    this.found.delete(uri)
+    this.merge(uri)
+    this.store.set(({ tabs, active, trail }) => ({
+      tabs: tabs.map((tab) => (tab === uri ? file.uri : tab)),
+      active: active === uri ? file.uri : active,
+      trail: trail.map(named),
+    }))
+    if (this.runner.store.get().file?.uri === uri) void this.runner.close()
   }
 
   // Brings a file to the front, and a place or a drawing of it before the eyes.

@@ -21,6 +21,10 @@ pub const INDENT: f64 = 20.0;
 pub const SMALL_LEADING: f64 = 14.0;
 /// The room of the rule between what a component is and its phases.
 pub const RULE: f64 = 8.0;
+/// LIMIT: the width of a word in a shape. A longer one is broken, or one name would make a shape as large as a picture.
+const WORD: f64 = 140.0;
+/// From the circle of an initial state to the one in it, and from there to the text.
+const RING: f64 = 4.0;
 /// Faces that stand in for Helvetica run up to so much wider.
 const MARGIN: f64 = 1.08;
 
@@ -45,7 +49,7 @@ pub fn heading_width(title: &str, link: Option<&str>) -> f64 {
     2.0 * INDENT + bold_width(title, TITLE) + link
 }
 
-/// A text in lines of at most this width, as even as can be; a longer word has a line of its own.
+/// A text in lines of at most this width, as even as can be. A longer word has a line of its own, one that is much longer several.
 pub fn wrapped(text: &str, width: f64) -> Vec<String> {
     let count = broken(text, width).len();
     // The narrowest width that needs no more lines makes them even.
@@ -66,16 +70,71 @@ fn broken(text: &str, width: f64) -> Vec<String> {
     for paragraph in text.lines() {
         let mut line = String::new();
         for word in paragraph.split_whitespace() {
-            let longer = if line.is_empty() { word.to_string() } else { format!("{line} {word}") };
-            if !line.is_empty() && text_width(&longer, TEXT) > width {
-                lines.push(std::mem::replace(&mut line, word.to_string()));
-            } else {
-                line = longer;
+            for (index, piece) in pieces(word).into_iter().enumerate() {
+                let longer = if line.is_empty() { piece.clone() } else { format!("{line} {piece}") };
+                if !line.is_empty() && (index > 0 || text_width(&longer, TEXT) > width) {
+                    lines.push(std::mem::replace(&mut line, piece));
+                } else {
+                    line = longer;
+                }
             }
         }
         lines.push(line);
     }
     lines
+}
+
+/// A word in pieces that are no wider than [`WORD`]: between the words that a name is made of, else within one, with a hyphen.
+fn pieces(word: &str) -> Vec<String> {
+    if text_width(word, TEXT) <= WORD {
+        return vec![word.to_string()];
+    }
+    let mut pieces = vec![String::new()];
+    for part in parts(word) {
+        for letter in cut(&part) {
+            let last = pieces.last().map_or("", String::as_str);
+            let longer = format!("{last}{letter}");
+            match pieces.last_mut() {
+                Some(last) if text_width(&longer, TEXT) <= WORD => *last = longer,
+                _ => pieces.push(letter),
+            }
+        }
+    }
+    pieces.retain(|piece| !piece.is_empty());
+    pieces
+}
+
+/// The words that a name is made of: each begins with a capital after a small letter, or after a sign.
+fn parts(word: &str) -> Vec<String> {
+    let mut parts = vec![String::new()];
+    let mut before = None;
+    for letter in word.chars() {
+        let begins = before.is_some_and(|before: char| {
+            (before.is_lowercase() && letter.is_uppercase()) || (letter.is_alphanumeric() && !before.is_alphanumeric())
+        });
+        match parts.last_mut() {
+            Some(last) if !begins => last.push(letter),
+            _ => parts.push(letter.to_string()),
+        }
+        before = Some(letter);
+    }
+    parts
+}
+
+/// A part in pieces that have room in a line each; all but the last end with a hyphen.
+fn cut(part: &str) -> Vec<String> {
+    let mut pieces = vec![String::new()];
+    for letter in part.chars() {
+        if let Some(last) = pieces.last_mut() {
+            if !last.is_empty() && text_width(&format!("{last}{letter}-"), TEXT) > WORD {
+                last.push('-');
+                pieces.push(letter.to_string());
+            } else {
+                last.push(letter);
+            }
+        }
+    }
+    pieces
 }
 
 /// The width and height of a text in lines.
@@ -84,10 +143,16 @@ pub fn extent(lines: &[String]) -> (f64, f64) {
     (width, lines.len() as f64 * LEADING)
 }
 
+/// The radius of the circle of a control state.
+pub fn radius_of(text: &str, is_initial: bool) -> f64 {
+    in_circle(text).1 + if is_initial { RING } else { 0.0 }
+}
+
 /// The lines of a control state, and the radius of the smallest circle around them.
 pub fn in_circle(text: &str) -> (Vec<String>, f64) {
     let words = text.split_whitespace().count().max(1);
-    let longest = text.split_whitespace().map(|word| text_width(word, TEXT)).fold(0.0, f64::max);
+    let pieces = text.split_whitespace().flat_map(pieces);
+    let longest = pieces.map(|piece| text_width(&piece, TEXT)).fold(0.0, f64::max);
     let whole = text_width(text, TEXT);
     let candidates = (0..=words).map(|step| longest + (whole - longest) * step as f64 / words as f64);
     let sized = candidates.map(|width| {
@@ -113,6 +178,21 @@ mod tests {
         assert_eq!(wrapped("Swinging buffer managed", 120.0), ["Swinging buffer", "managed"]);
         assert_eq!(wrapped("Idle", 120.0), ["Idle"]);
         assert_eq!(wrapped("", 120.0), Vec::<String>::new());
+    }
+
+    #[test]
+    fn a_long_word_is_broken() {
+        let check = |word: &str, lines: &[&str]| {
+            assert_eq!(wrapped(word, 120.0), lines);
+            assert!(lines.iter().all(|line| text_width(line, TEXT) <= WORD));
+        };
+        check("waitingForTheNextImageOfTheCamera", &["waitingForTheNext", "ImageOfTheCamera"]);
+        check("r_configure_the_controller_of_it", &["r_configure_the_", "controller_of_it"]);
+        check("Donaudampfschifffahrtsgesellschaft", &["Donaudampfschifffah-", "rtsgesellschaft"]);
+        check("a waitingForTheNextImageOfTheCamera b", &["a", "waitingForTheNext", "ImageOfTheCamera", "b"]);
+        let (lines, radius) = in_circle(&"x".repeat(60));
+        assert!(lines.len() > 2 && radius < 90.0, "{lines:?} {radius}");
+        assert_eq!(lines.concat().replace('-', ""), "x".repeat(60));
     }
 
     #[test]

@@ -7,7 +7,7 @@ use std::collections::BTreeSet;
 
 use chart::{Chart, Composite, End, Link, Machine, ShapeId, ShapeKind};
 
-use crate::measure::{SMALL, SMALL_LEADING, TEXT, extent, in_circle, link_width, text_width, wrapped};
+use crate::measure::{SMALL, SMALL_LEADING, TEXT, extent, in_circle, link_width, radius_of, text_width, wrapped};
 use crate::picture::{Detail, Figure};
 
 /// A shape to be placed.
@@ -66,7 +66,7 @@ pub struct Scene {
 pub fn of_machine(chart: &Chart, machine: &Machine) -> Scene {
     let order = reading_order(machine);
     let radius = machine.shapes.iter().filter(|shape| matches!(shape.kind, ShapeKind::State { .. }));
-    let radius = radius.map(|shape| in_circle(&shape.text).1).fold(34.0, f64::max).ceil();
+    let radius = radius.map(|shape| radius_of(&shape.text, shape.is_initial())).fold(34.0, f64::max).ceil();
     let mut scene = Scene::default();
     for end in &order {
         let mut node = match end {

@@ -13,7 +13,7 @@ use ide::{Centre, Fresh, FreshKind, Joint, Operation};
 use lsp_server::ErrorCode;
 use serde_json::{Map, Value, json};
 use syntax::ast::{AstNode, ChartFile, Shape};
-use syntax::{FileId, Span, parse_chart};
+use syntax::{FileId, Severity, Span, parse_chart};
 
 use crate::answer::Answers;
 use crate::composite_view;
@@ -83,7 +83,9 @@ fn picture(answers: &mut Answers, params: &Value) -> Result<Value, Refused> {
             Err(fault) => problems.push(format!("{} cannot be laid out: {fault}", drawing.name())),
         }
     }
-    Ok(json!({ "version": VERSION, "drawings": drawn, "problems": problems }))
+    // Of a text that cannot be read as it is, the picture is a guess.
+    let is_guess = parse.diagnostics.iter().any(|fault| fault.severity == Severity::Error);
+    Ok(json!({ "version": VERSION, "drawings": drawn, "problems": problems, "guess": is_guess }))
 }
 
 /// What the text says of drawings and their shapes, by name.

@@ -123,6 +123,33 @@ impl Folder {
         fresh.persist(&target).map_err(|error| cannot(error.error))?;
         Ok(())
     }
+
+    /// Gives a file another name, which nothing has yet.
+    ///
+    /// # Errors
+    /// Something has it, or the disk refuses; a sentence.
+    pub fn rename(&self, name: &str, to: &str) -> Result<(), String> {
+        let (old, new) = (self.place(name)?, self.place(to)?);
+        let cannot = |error: std::io::Error| match error.kind() {
+            ErrorKind::AlreadyExists => format!("{to} is there already"),
+            _ => format!("{name} cannot be renamed: {error}"),
+        };
+        // A second name is never put over a file, as a new one would be; where there are none, it is looked before.
+        match fs::hard_link(&old, &new) {
+            Ok(()) => fs::remove_file(&old).map_err(cannot),
+            Err(error) if matches!(error.kind(), ErrorKind::AlreadyExists | ErrorKind::NotFound) => Err(cannot(error)),
+            Err(_) if fs::symlink_metadata(&new).is_ok() => Err(format!("{to} is there already")),
+            Err(_) => fs::rename(&old, &new).map_err(cannot),
+        }
+    }
+
+    /// Deletes a file.
+    ///
+    /// # Errors
+    /// The disk refuses; a sentence.
+    pub fn remove(&self, name: &str) -> Result<(), String> {
+        fs::remove_file(self.place(name)?).map_err(|error| format!("{name} cannot be deleted: {error}"))
+    }
 }
 
 /// A new file is as any program would make it; a temporary one is for its owner alone.

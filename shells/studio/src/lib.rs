@@ -24,6 +24,7 @@ mod inputs;
 mod job;
 mod line;
 mod model;
+mod names;
 mod program;
 mod request;
 mod serve;

@@ -16,7 +16,7 @@ use crate::home::Home;
 use crate::program::{self, Plan};
 use crate::studio::Studio;
 use crate::tell::Out;
-use crate::{generated, inputs, job, model, sources};
+use crate::{generated, inputs, job, model, names, sources};
 
 /// The version of these requests. A change that would mislead a front end raises it.
 const VERSION: u32 = 1;
@@ -79,6 +79,22 @@ pub fn answer(
             }
             Ok(wrote.json())
         }
+        "studio/names" => names::of(&studio.folder, text("path")?, &paths(&studio.folder)),
+        "studio/rename" => {
+            writable(studio)?;
+            rename(studio, tab, &params["files"])
+        }
+        "studio/delete" => {
+            writable(studio)?;
+            let path = text("path")?;
+            known(path)?;
+            let mut store = studio.store();
+            let held = store.remove(&studio.folder, path)?;
+            changed(studio, path, None, Some(tab));
+            drop(store);
+            studio.tell("studio/files", &json!({ "files": files(&studio.folder) }), None);
+            Ok(json!({ "text": held }))
+        }
         "studio/generated" => match params["file"].as_str() {
             Some(file) => generated::text(&studio.folder, text("path")?, file),
             None => generated::list(&studio.folder, text("path")?),
@@ -91,6 +107,7 @@ pub fn answer(
             writable(studio)?;
             create(studio, text("template")?, text("name")?)
         }
+        "studio/extract" => extract(studio, text("path")?),
         "studio/model" => model::agreement(studio, text("path")?),
         "studio/job" => start(studio, tab, out, params),
         "studio/stop" => {
@@ -147,6 +164,32 @@ fn start(studio: &Arc<Studio>, tab: u64, out: &Sender<Out>, params: &Value) -> R
     }
     let texts = if path.is_empty() { json!([]) } else { texts()? };
     Ok(begun(studio.jobs.start(tab, &words, out.clone())?, texts))
+}
+
+/// Gives files other names, and tells the other tabs. Out: what they are called now.
+fn rename(studio: &Studio, tab: u64, files: &Value) -> Result<Value, String> {
+    let of = |file: &'_ Value| Some((file["path"].as_str()?.to_string(), file["to"].as_str()?.to_string()));
+    let moves: Option<Vec<_>> = files.as_array().and_then(|files| files.iter().map(of).collect());
+    let moves = moves.ok_or("`files` has `path` and `to` of each")?;
+    let moves: Vec<_> = moves.iter().map(|(path, to)| (path.as_str(), to.as_str())).collect();
+    for (path, to) in &moves {
+        known(path)?;
+        if kind(path) != kind(to) {
+            return Err(format!("{path} and `{}` are not of one kind", to.escape_debug()));
+        }
+    }
+    let mut store = studio.store();
+    store.rename(&studio.folder, &moves)?;
+    let file = |(path, to): &(&str, &str)| {
+        let uri = studio.folder.place(to).ok().and_then(|place| uri_of(&place.to_string_lossy()));
+        json!({ "path": path, "to": to, "uri": uri.map(|uri| uri.as_str().to_string()) })
+    };
+    let renamed = json!({ "files": moves.iter().map(file).collect::<Vec<_>>() });
+    // In the order of the writing, as texts are.
+    studio.tell("studio/renamed", &renamed, Some(tab));
+    drop(store);
+    studio.tell("studio/files", &json!({ "files": self::files(&studio.folder) }), None);
+    Ok(renamed)
 }
 
 /// Tells other tabs what a file is now.
@@ -212,6 +255,10 @@ pub fn files(folder: &Folder) -> Vec<Value> {
     found.iter().filter_map(of).collect()
 }
 
+fn paths(folder: &Folder) -> Vec<String> {
+    files(folder).iter().filter_map(|file| file["path"].as_str().map(str::to_string)).collect()
+}
+
 fn kind(path: &str) -> Option<&'static str> {
     Some(match Kind::of(std::path::Path::new(path))? {
         Kind::Model => "model",
@@ -221,6 +268,26 @@ fn kind(path: &str) -> Option<&'static str> {
         Kind::Verification => "verification",
         Kind::Coupling => "coupling",
     })
+}
+
+/// The chart of a model's rules, as `groundstate chart extract` writes it.
+fn extract(studio: &Studio, path: &str) -> Result<Value, String> {
+    if kind(path) != Some("model") {
+        return Err(format!("`{}` is no model", path.escape_debug()));
+    }
+    studio.folder.place(path)?;
+    let made = studio.jobs.at_once(&["chart", "extract", &format!("./{path}"), "--quiet"])?;
+    match made.status.success() {
+        true => Ok(json!({ "text": String::from_utf8_lossy(&made.stdout) })),
+        false => {
+            let told = String::from_utf8_lossy(&made.stderr);
+            let reason = told.lines().find(|line| !line.trim().is_empty()).unwrap_or_default();
+            // A fault comes with its name, the reason why there is no chart without one.
+            let reason =
+                reason.split_once(": ").filter(|(word, _)| word.starts_with("error")).map_or(reason, |(_, it)| it);
+            Err(format!("{path} has no chart: {reason}"))
+        }
+    }
 }
 
 /// A folder from a template, made by `groundstate new`.

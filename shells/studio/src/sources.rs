@@ -18,7 +18,7 @@ use crate::folder::Folder;
 use crate::studio::Studio;
 
 /// The folder's texts by the names that browsers use; what lies elsewhere is not there.
-struct Inside<'f>(&'f Folder);
+pub struct Inside<'f>(pub &'f Folder);
 
 impl Files for Inside<'_> {
     fn read(&mut self, path: &str) -> Result<SourceFile, Absent> {

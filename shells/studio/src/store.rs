@@ -24,6 +24,8 @@ pub struct Store {
     /// The hash of each file that somebody asked for, as all browsers were told of it last. INVARIANT: whoever reads a file that was
     /// changed meanwhile keeps the news from nobody else.
     told: BTreeMap<String, Option<String>>,
+    /// What files that got another name are called now.
+    renamed: BTreeMap<String, String>,
 }
 
 /// What became of a text.
@@ -78,8 +80,14 @@ impl Store {
                 None => self.put(folder, path, text).map(Wrote::As),
             };
         };
-        // A file that somebody took away is made again: its text is in the browser alone.
-        let Some(theirs) = there else { return self.put(folder, path, text).map(Wrote::As) };
+        let Some(theirs) = there else {
+            // Who writes it has not heard yet that it has another name.
+            if let Some(to) = self.renamed.get(path) {
+                return Err(format!("{path} is called {to} now"));
+            }
+            // A file that somebody took away is made again: its text is in the browser alone.
+            return self.put(folder, path, text).map(Wrote::As);
+        };
         let hash = self.know(&theirs);
         if hash == base || theirs == text {
             return self.put(folder, path, text).map(Wrote::As);
@@ -101,9 +109,47 @@ impl Store {
     /// Whoever writes a text tells it the others.
     fn put(&mut self, folder: &Folder, path: &str, text: &str) -> Result<String, String> {
         folder.write(path, text)?;
+        self.renamed.remove(path);
         let hash = self.know(text);
         self.told.insert(path.to_string(), Some(hash.clone()));
         Ok(hash)
+    }
+
+    /// Gives files other names: all, or none. Whoever has them renamed tells it the others.
+    ///
+    /// # Errors
+    /// A file is not there, a name is taken, or the disk refuses; a sentence.
+    pub fn rename(&mut self, folder: &Folder, moves: &[(&str, &str)]) -> Result<(), String> {
+        for (done, (path, to)) in moves.iter().enumerate() {
+            let text = folder.read(path).and_then(|text| text.ok_or_else(|| format!("there is no {path}")));
+            match text.and_then(|text| folder.rename(path, to).map(|()| text)) {
+                Ok(text) => {
+                    let hash = self.know(&text);
+                    self.told.remove(*path);
+                    self.told.insert(to.to_string(), Some(hash));
+                    self.renamed.remove(*to);
+                    self.renamed.insert(path.to_string(), to.to_string());
+                }
+                Err(reason) => {
+                    let back: Vec<_> = moves[..done].iter().rev().map(|(path, to)| (*to, *path)).collect();
+                    self.rename(folder, &back)?;
+                    return Err(reason);
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Deletes a file. Out: what it held. Whoever deletes it tells it the others.
+    ///
+    /// # Errors
+    /// It is not there, is no text, or the disk refuses; a sentence.
+    pub fn remove(&mut self, folder: &Folder, path: &str) -> Result<String, String> {
+        let text = folder.read(path)?.ok_or_else(|| format!("there is no {path}"))?;
+        self.know(&text);
+        folder.remove(path)?;
+        self.told.insert(path.to_string(), None);
+        Ok(text)
     }
 
     /// Keeps a text, so that what is made from it can be merged.
@@ -170,6 +216,37 @@ mod tests {
         std::fs::remove_file(place.path().join("a.asm")).expect("removed");
         assert_eq!(store.read(&folder, "a.asm").expect("read"), None);
         assert_eq!(store.changed(&folder), [("a.asm".to_string(), None)]);
+    }
+
+    #[test]
+    fn files_are_renamed_and_deleted_and_nothing_lies_under_another_name() {
+        let place = tempfile::tempdir().expect("a folder");
+        let folder = Folder::at(place.path()).expect("it is one");
+        let mut store = Store::default();
+        let Ok(Wrote::As(base)) = store.write(&folder, "a.asm", "1\n", None) else { panic!("it is new") };
+        store.write(&folder, "b.asm", "2\n", None).expect("written");
+        let there = |name: &str| folder.read(name).expect("read");
+        // Over another file nothing is renamed; of several, all are or none.
+        assert_eq!(store.rename(&folder, &[("a.asm", "b.asm")]), Err("b.asm is there already".to_string()));
+        let several = [("a.asm", "c.asm"), ("none.asm", "d.asm")];
+        assert_eq!(store.rename(&folder, &several), Err("there is no none.asm".to_string()));
+        assert_eq!((there("a.asm").as_deref(), there("c.asm")), (Some("1\n"), None));
+        assert!(store.rename(&folder, &[("a.asm", "../c.asm")]).is_err());
+        assert_eq!(store.rename(&folder, &[("a.asm", "c.asm"), ("b.asm", "a.asm")]), Ok(()));
+        assert_eq!(
+            (there("a.asm").as_deref(), there("b.asm"), there("c.asm").as_deref()),
+            (Some("2\n"), None, Some("1\n"))
+        );
+        assert_eq!(store.changed(&folder), []);
+        // What is written meanwhile under the former name makes no second file.
+        assert_eq!(store.rename(&folder, &[("c.asm", "d.asm")]), Ok(()));
+        let late = store.write(&folder, "c.asm", "3\n", Some(&base));
+        assert_eq!(late, Err("c.asm is called d.asm now".to_string()));
+        assert_eq!(store.write(&folder, "d.asm", "3\n", Some(&base)), Ok(Wrote::As(hash("3\n"))));
+        assert!(matches!(store.write(&folder, "c.asm", "4\n", None), Ok(Wrote::As(_))));
+        assert_eq!(store.remove(&folder, "c.asm"), Ok("4\n".to_string()));
+        assert_eq!((there("c.asm"), store.changed(&folder)), (None, Vec::new()));
+        assert!(store.remove(&folder, "c.asm").is_err() && store.remove(&folder, "../x.asm").is_err());
     }
 
     #[test]

@@ -113,6 +113,14 @@ fn nothing_outside_the_folder_is_read_or_written() {
             let wrote = tab.ask("studio/write", json!({ "path": name, "text": "x", "base": null }));
             assert!(wrote.is_err(), "{name:?} is written: {wrote:?}");
         }
+        let found = tab.ask("studio/names", json!({ "path": name }));
+        assert!(found.is_err() || name.starts_with('%'), "{name:?} is looked for");
+        let deleted = tab.ask("studio/delete", json!({ "path": name }));
+        assert!(deleted.is_err(), "{name:?} is deleted: {deleted:?}");
+        for (path, to) in [(name, "free.asm"), ("a.asm", name)] {
+            let renamed = tab.ask("studio/rename", json!({ "files": [{ "path": path, "to": to }] }));
+            assert!(renamed.is_err() || name.starts_with('%'), "{path:?} is renamed to {to:?}: {renamed:?}");
+        }
         let job = tab.ask("studio/job", json!({ "job": "check", "path": name }));
         assert!(job.is_err() || name.is_empty() || !name.contains(".."), "{name:?} is checked: {job:?}");
     }

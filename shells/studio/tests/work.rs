@@ -46,6 +46,37 @@ fn two_tabs_do_not_lose_each_others_work() {
 }
 
 #[test]
+fn a_file_gets_another_name_and_is_deleted_before_all_eyes() {
+    let user = "asm b\nimport a\nsignature:\ndefinitions:\n\tmain rule r_m = skip\n";
+    let running = Running::over(&[("a.asm", "module a\nsignature:\ndefinitions:\n"), ("b.asm", user)]);
+    let (mut one, mut other) = (running.tab(), running.tab());
+    let base = other.ask("studio/read", json!({ "path": "a.asm" })).expect("read")["hash"].clone();
+    let names = one.ask("studio/names", json!({ "path": "a.asm" })).expect("told");
+    let paths: Vec<_> = names["places"].as_array().expect("places").iter().map(|place| &place["path"]).collect();
+    assert_eq!(paths, ["a.asm", "b.asm"]);
+    let rename = |path: &str, to: &str| json!({ "files": [{ "path": path, "to": to }] });
+    let mut refused = |path: &str, to: &str| one.ask("studio/rename", rename(path, to)).expect_err("refused");
+    assert_eq!(refused("a.asm", "b.asm"), "b.asm is there already");
+    assert_eq!(refused("a.asm", "a.chart"), "a.asm and `a.chart` are not of one kind");
+    assert!(refused("a.asm", "../c.asm").contains("no file of this folder"));
+    assert!(refused("a.asm", "none/c.asm").contains("cannot be renamed"));
+    let answer = one.ask("studio/rename", rename("a.asm", "c.asm")).expect("renamed");
+    assert_eq!(answer["files"][0]["uri"], running.uri("c.asm"));
+    let told = other.hear("studio/renamed", |_| true);
+    assert_eq!(told, answer);
+    other.hear("studio/files", |params| params["files"].to_string().contains("c.asm"));
+    // What another tab types under the former name makes no file of it again.
+    let late = other.ask("studio/write", json!({ "path": "a.asm", "text": "late", "base": base }));
+    assert_eq!(late, Err("a.asm is called c.asm now".to_string()));
+    assert!(write(&mut other, "c.asm", "module c\n", &base)["conflict"].is_null());
+    let deleted = one.ask("studio/delete", json!({ "path": "c.asm" })).expect("deleted");
+    assert_eq!(deleted["text"], "module c\n");
+    other.hear("studio/changed", |params| params["path"] == "c.asm" && params["text"].is_null());
+    assert!(!running.folder().join("c.asm").exists());
+    assert!(one.ask("studio/delete", json!({ "path": "c.asm" })).is_err());
+}
+
+#[test]
 fn a_file_is_whole_at_any_time() {
     let (small, large) = ("s".repeat(10), "l".repeat(300_000));
     let running = Running::over(&[("a.asm", &small)]);
@@ -122,6 +153,15 @@ fn a_chart_is_drawn_in() {
         "textDocument": document, "drawing": "lamp", "operation": { "kind": "connect", "from": "on", "branch": null, "to": "exit" },
     }));
     assert_eq!(refused, Err("only a pattern is entered and left; this is a machine".to_string()));
+    assert_eq!(after["guess"], false);
+    let typed = json!({ "textDocument": { "uri": uri, "version": 3 }, "contentChanges": [
+        { "range": { "start": { "line": 8, "character": 0 }, "end": { "line": 8, "character": 0 } }, "text": "\toff -> off ->\n" }] });
+    tab.tell("textDocument/didChange", typed);
+    let guessed = tab.ask("groundstate/chart/picture", json!({ "textDocument": document })).expect("drawn");
+    assert_eq!((&guessed["guess"], guessed["drawings"].as_array().map(Vec::len)), (&json!(true), Some(1)));
+    let mended = json!({ "textDocument": { "uri": uri, "version": 4 }, "contentChanges": [
+        { "range": { "start": { "line": 8, "character": 0 }, "end": { "line": 9, "character": 0 } }, "text": "" }] });
+    tab.tell("textDocument/didChange", mended);
     let laid_out = tab.ask(
         "groundstate/chart/edit",
         json!({
@@ -208,6 +248,8 @@ fn a_studio_that_only_shows_writes_nothing() {
     for (method, params) in [
         ("studio/write", json!({ "path": "a.asm", "text": "x", "base": base })),
         ("studio/new", json!({ "template": "machine", "name": "x" })),
+        ("studio/rename", json!({ "files": [{ "path": "a.asm", "to": "b.asm" }] })),
+        ("studio/delete", json!({ "path": "a.asm" })),
         ("studio/job", json!({ "job": "generate", "path": "a.asm" })),
     ] {
         assert_eq!(tab.ask(method, params), Err("this studio was started with --read-only".to_string()), "{method}");

@@ -1,0 +1,35 @@
+// What the studio says while files are made, renamed, deleted and put back.
+
+const list = (names: readonly string[]): string => names.join(', ')
+
+export const FILES = {
+  menu: (name: string) => `What to do with ${name}`,
+  open: 'Open',
+  rename: 'Rename…',
+  delete: 'Delete',
+  ask: 'Delete…',
+  renameTitle: (name: string) => `Rename ${name}`,
+  badName: 'A name has no /, \\ or :, and neither begins nor ends with a point.',
+  along: (names: readonly string[]) => `Rename what belongs to it, too: ${list(names)}`,
+  follow: 'Changed with it',
+  stay: 'Have its name and stay as they are',
+  missed: 'It will be missed by',
+  lines: (lines: readonly number[]) => (lines.length === 1 ? `line ${lines[0]}` : `lines ${list(lines.map(String))}`),
+  program: (folder: string) => `Its C++ stays in ${folder}. C++ that is generated from now on goes to a folder of the new name.`,
+  ownProgram: (folder: string) => `${folder}/CMakeLists.txt says whose program it is: change the name there.`,
+  renamed: (old: string, name: string) => `${old} is ${name} now.`,
+  notFollowed: (names: readonly string[]) => `Changed meanwhile, so the former name is still in ${list(names)}.`,
+  undecided: (name: string) => `What you typed in ${name} is in no file: save or discard it first.`,
+  deleteTitle: (name: string) => `Delete ${name}?`,
+  deleteHint: 'As long as this page is open, you can put it back.',
+  deleted: (name: string) => `${name} is deleted.`,
+  extract: 'Draw its chart',
+  extracted: (chart: string, model: string) => `${chart} draws the rules of ${model}.`,
+  emptyChart: 'Empty chart',
+  emptyChartHint: 'One machine with its initial state, in a folder that is there',
+  folder: 'In the folder',
+  top: (name: string) => `${name} itself`,
+  deletedHere: 'Deleted',
+  putBack: 'Put it back',
+  putBackNamed: (name: string) => `Put ${name} back`,
+}
