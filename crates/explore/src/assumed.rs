@@ -16,7 +16,7 @@ use program::{
 /// LIMIT: larger ranges are not used as bounds.
 const VALUES: i64 = 1 << 16;
 
-/// The bounds that a program's assumptions give.
+/// The bounds that a program's assumptions give; no value where they contradict each other.
 pub fn assumed_bounds(program: &Program) -> Bounds {
     let mut found: BTreeMap<FunctionId, (Option<i64>, Option<i64>)> = BTreeMap::new();
     for property in program.properties.iter().filter(|property| property.kind == PropertyKind::Invar) {
@@ -34,8 +34,7 @@ pub fn assumed_bounds(program: &Program) -> Bounds {
         if let (Some(low), Some(high)) = (low, high)
             && high.saturating_sub(low) < VALUES
         {
-            // Where they contradict each other they leave no step, which one value shows as well as all.
-            bounds.insert(function, (low..=high.max(low)).map(Value::Integer).collect());
+            bounds.insert(function, (low..=high).map(Value::Integer).collect());
         }
     }
     bounds
@@ -46,6 +45,8 @@ pub fn assumed_bounds(program: &Program) -> Bounds {
 /// be listed, it has none here, so that it cannot be gone through.
 pub fn input_values(program: &Program, given: &Bounds, undefined: &BTreeSet<FunctionId>) -> Bounds {
     let mut bounds = assumed_bounds(program);
+    // Where the assumptions leave no value they leave no step, which one value shows as well as all.
+    bounds.values_mut().filter(|values| values.is_empty()).for_each(|values| values.push(Value::Integer(0)));
     bounds.extend(given.iter().map(|(function, values)| (*function, values.clone())));
     if undefined.is_empty() {
         return bounds;

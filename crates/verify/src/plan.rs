@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use explore::Settings;
+use explore::{Expansion, Explorer, Settings, Truth};
 
 use crate::storage::Storage;
 use crate::storage::disk::Disk;
@@ -46,4 +46,19 @@ pub struct Plan {
     pub symmetry: bool,
     /// Stores states when memory is full; only if they are stored in full, and without a checkpoint.
     pub disk: Option<Arc<dyn Disk>>,
+}
+
+impl Plan {
+    /// Whether the assumptions leave no step of a state whose alternatives lead to these.
+    pub fn leaves_no_step(&self, explorer: &mut Explorer, expansion: &Expansion, successors: &[u64]) -> bool {
+        if expansion.stayed > 0 || expansion.faults != [0; 3] || expansion.unbounded > 0 {
+            return false;
+        }
+        if expansion.moved == 0 {
+            return expansion.excluded > 0;
+        }
+        let words = explorer.words();
+        let mut admitted = |state: &[u64]| self.assumed.iter().all(|one| explorer.truth(*one, state) == Truth::True);
+        !self.assumed.is_empty() && !successors.chunks_exact(words).any(&mut admitted)
+    }
 }

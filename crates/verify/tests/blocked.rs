@@ -3,9 +3,11 @@
 //! What would follow these states is not part of any verdict, so nobody should take *holds* for more than it is.
 
 use std::collections::BTreeSet;
+use std::sync::Arc;
 
 use syntax::SourceFile;
 use testkit::{Random, sample};
+use verify::review::{Meta, MetaOutcome, review};
 use verify::{EngineKind, Options, Outcome, Reason, Storage, verify};
 
 use crate::models::lowered;
@@ -135,4 +137,27 @@ fn assumptions_that_leave_no_step() {
         let report = of("go", engine, workers);
         assert!(report.verdicts.iter().all(|verdict| verdict.outcome == Outcome::Holds), "{:?}", report.verdicts);
     }
+}
+
+/// A review would take all for oddities there: that no rule runs, that no value is taken.
+#[test]
+fn a_review_says_nothing_where_no_step_is_left() {
+    let reviewed = |assumed: &str| {
+        let text = format!(
+            "asm Level\nimport StandardLibrary\nsignature:\n\tdomain Level subsetof Integer\n\tcontrolled level: Level\n\
+             \tmonitored go: Boolean\ndefinitions:\n\tdomain Level = {{0 : 1}}\n\tINVAR {assumed}\n\
+             \tmain rule r_Main = if go then level := 1 - level endif\ndefault init s0:\n\tfunction level = 0\n"
+        );
+        let checked = model::check(SourceFile::new("Level.asm", text), &mut testkit::NoFiles);
+        let program = Arc::new(program::lower(&checked.model).expect("it is lowered"));
+        let options = Options::default();
+        review(&checked.model, &program, &options, &Meta::ALL, &|_| true, &mut |_| true).expect("it begins")
+    };
+    let nothing = reviewed("go and not go");
+    assert_eq!((&nothing.findings[..], &nothing.reasons[..]), (&[][..], &[Reason::Stepless][..]));
+    assert!(nothing.outcomes.iter().all(|(_, outcome)| *outcome == MetaOutcome::Unknown), "{:?}", nothing.outcomes);
+    // A step that leads to no state that counts is none either.
+    assert_eq!(reviewed("go\n\tINVAR level = 0").reasons, [Reason::Stepless]);
+    let some = reviewed("go");
+    assert!(some.reasons.is_empty() && some.outcomes.iter().any(|(_, outcome)| *outcome == MetaOutcome::Holds));
 }

@@ -80,19 +80,6 @@ pub(crate) fn note(found: &mut Vec<Found>, one: Found, explorer: &mut Explorer) 
     }
 }
 
-/// Whether the assumptions leave no step of a state whose alternatives lead to these.
-fn is_blocked(explorer: &mut Explorer, plan: &Plan, expansion: &Expansion, successors: &[u64]) -> bool {
-    if expansion.stayed > 0 || expansion.faults != [0; 3] || expansion.unbounded > 0 {
-        return false;
-    }
-    if expansion.moved == 0 {
-        return expansion.excluded > 0;
-    }
-    let words = explorer.words();
-    let mut admitted = |state: &[u64]| plan.assumed.iter().all(|one| explorer.truth(*one, state) == Truth::True);
-    !plan.assumed.is_empty() && !successors.chunks_exact(words).any(&mut admitted)
-}
-
 impl Shard {
     /// A shard without states.
     pub fn new(store: Store, reduction: &Option<Arc<Reduction>>) -> Shard {
@@ -212,7 +199,7 @@ impl Shard {
                         walked.for_each(|successor| edges.leads_to(owner(successor, workers)));
                         edges.end(&expansion);
                     }
-                    self.blocked += u64::from(is_blocked(explorer, plan, &expansion, &out[begin..]));
+                    self.blocked += u64::from(plan.leaves_no_step(explorer, &expansion, &out[begin..]));
                     self.transitions += u64::from(expansion.moved);
                     made += u64::from(expansion.moved);
                     if expansion.moved == 0 || expansion.failed > 0 || expansion.faults != [0; 3] {

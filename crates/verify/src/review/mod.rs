@@ -144,9 +144,10 @@ pub fn review(
     reviewer.values();
     reviewer.locations();
     let Reviewer { survey, mut findings, .. } = reviewer;
-    findings.retain(|finding| metas.contains(&finding.meta));
+    // Where nothing happens, it says nothing that something does not.
+    let nothing_seen = survey.reasons.iter().any(|reason| matches!(reason, Reason::Vacuous | Reason::Stepless));
+    findings.retain(|finding| metas.contains(&finding.meta) && !nothing_seen);
     findings.sort_by_key(|finding| (finding.meta, finding.span));
-    let nothing_seen = survey.reasons.contains(&Reason::Vacuous);
     let outcome = |meta: Meta| {
         if nothing_seen {
             return MetaOutcome::Unknown;

@@ -138,6 +138,8 @@ struct Surveyor<'p> {
     unclear: bool,
     /// Whether a state or a step was left out that no assumption excludes, as an invariant does not hold.
     unlawful: bool,
+    /// Whether the assumptions leave a step of some state.
+    has_step: bool,
 }
 
 impl<'p> Surveyor<'p> {
@@ -156,7 +158,17 @@ impl<'p> Surveyor<'p> {
             left_out: false,
         };
         let seen = FxHashSet::default();
-        Ok(Surveyor { plan, care, seen, survey, depth: 0, transitions: 0, unclear: false, unlawful: false })
+        Ok(Surveyor {
+            plan,
+            care,
+            seen,
+            survey,
+            depth: 0,
+            transitions: 0,
+            unclear: false,
+            unlawful: false,
+            has_step: false,
+        })
     }
 
     fn run(mut self, watch: &mut dyn FnMut(&Progress) -> bool) -> Result<Survey, Trouble> {
@@ -196,6 +208,8 @@ impl<'p> Surveyor<'p> {
                 let (depth, state) = (self.depth, next as u32);
                 self.survey.sightings.push(Sighting { observation, made, depth, state, picks });
             }
+            self.has_step =
+                self.has_step || !self.plan.leaves_no_step(&mut self.survey.explorer, &expansion, &successors);
             self.take_in(next as u32, &successors);
             next += 1;
         }
@@ -205,6 +219,8 @@ impl<'p> Surveyor<'p> {
         }
         if self.unlawful {
             self.survey.reasons.push(Reason::Unlawful);
+        } else if !self.has_step && next > 0 && self.survey.stop.is_none() {
+            self.survey.reasons.push(Reason::Stepless);
         }
         Ok(self.survey)
     }
