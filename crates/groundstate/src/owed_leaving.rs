@@ -23,6 +23,8 @@ pub struct Leaving {
     pub stuck: Option<Stuck>,
     /// The answers that it never gives.
     pub never: Vec<bool>,
+    /// The machine never comes to the block, so the proof is of nothing that it does.
+    pub idle: bool,
     /// Something could not be decided, so it may be stuck all the same.
     pub open: bool,
 }
@@ -56,6 +58,8 @@ pub fn leaving(
         }
     }
     let of_block = questions.len();
+    questions.extend(proof.block.iter().map(|block| (PropertyKind::Invariant, format!("not ({})", block.at))));
+    let before_stands = questions.len();
     let stands = if waits { &proof.stands[..] } else { &[] };
     questions.extend(stands.iter().map(|stand| (PropertyKind::Ctl, stand.goes_on())));
     if questions.is_empty() {
@@ -64,7 +68,8 @@ pub fn leaving(
     let answers = asking.ask(concrete, &questions);
     let mut doubtful = Vec::new();
     for (index, answer) in answers.into_iter().enumerate() {
-        match (answer, index.checked_sub(of_block)) {
+        match (answer, index.checked_sub(before_stands)) {
+            (Answer::Yes, None) if index >= of_block => found.idle = true,
             (Answer::No(run), None) if index == 0 => found.stuck = Some(Stuck { at: None, run }),
             (Answer::Yes, None) if index > 0 => found.never.push(index == 1),
             (Answer::No(run), Some(stand)) => doubtful.push((&stands[stand], run)),

@@ -98,6 +98,23 @@ fn a_machine_that_does_what_the_action_does_is_proved_when_it_is_asked_for() {
     assert!(!text.contains("proved ("), "{text}");
 }
 
+/// What nobody comes to could do anything.
+#[test]
+fn a_proof_of_what_is_never_entered_says_so() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let folder = folder.path();
+    let never = CHART
+        .replace("guard asked \"Asked\"", "guard asked \"Asked\" {1 > 2}")
+        .replace("lift -> loaded\n", "lift -> loaded\n\tasked no -> loaded\n");
+    for raise in [COUNT, "pieces := 2"] {
+        prepare(folder, &never, COUNT, "skip", raise);
+        check(folder, &PROVE, 0, &["observed pieces, phase, assumed that waiting ends; it is never entered)"]);
+    }
+    prepare(folder, CHART, COUNT, "skip", COUNT);
+    let text = check(folder, &PROVE, 0, &["proved ("]);
+    assert!(!text.contains("never entered"), "{text}");
+}
+
 #[test]
 fn a_machine_that_does_more_or_at_the_wrong_time_is_refuted() {
     let folder = tempfile::tempdir().expect("a temporary folder");

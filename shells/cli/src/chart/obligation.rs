@@ -52,6 +52,8 @@ pub enum Told {
         assumed: Vec<String>,
         /// The answers that it never gives.
         never: Vec<bool>,
+        /// The machine never comes to it.
+        idle: bool,
     },
     /// It was refuted.
     Refuted {
@@ -71,14 +73,15 @@ impl Told {
             Told::Open(why) => format!("open, {why}"),
             Told::Refined { command } => format!("refined, not proved; `{command}` looks"),
             Told::Differs => "refined, not proved: chart and model differ".to_string(),
-            Told::Proved { pairs, observed, waiting, assumed, never } => {
+            Told::Proved { pairs, observed, waiting, assumed, never, idle } => {
                 let mut taken = assumed.clone();
                 taken.extend(waiting.then(|| "that waiting ends".to_string()));
                 let waiting = if taken.is_empty() { String::new() } else { format!(", assumed {}", taken.join(", ")) };
                 let never = match never[..] {
-                    [] => "",
                     [true] => "; it never answers yes",
                     [false] => "; it never answers no",
+                    [] if *idle => "; it is never entered",
+                    [] => "",
                     _ => "; it is never asked",
                 };
                 format!(
@@ -194,7 +197,7 @@ fn proved(shell: &Shell, file: &Path, proof: &OwedProof, asked: Asked) -> Told {
                 }
             }
             let (pairs, observed) = (report.progress.pairs, proof.observed.clone());
-            let Leaving { stuck, never, open } = left(shell, proof, file.as_ref(), asked);
+            let Leaving { stuck, never, idle, open } = left(shell, proof, file.as_ref(), asked);
             match stuck {
                 // All that was taken for granted is that waiting ends, and here it cannot.
                 Some(Stuck { at: None, run }) => {
@@ -205,7 +208,7 @@ fn proved(shell: &Shell, file: &Path, proof: &OwedProof, asked: Asked) -> Told {
                     Told::Refuted { why, report: run }
                 }
                 None if open => Told::Unknown("whether its machines can always go on was not decided".to_string()),
-                None => Told::Proved { pairs, observed, waiting: asked.waiting, assumed, never },
+                None => Told::Proved { pairs, observed, waiting: asked.waiting, assumed, never, idle },
             }
         }
         Verdict::DoesNot(refutation) => {
