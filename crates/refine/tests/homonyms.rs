@@ -91,8 +91,11 @@ fn a_hidden_function_is_compared_with_its_like() {
         assert_eq!(report(&one, &painted("Other", "true", own), None).verdict, Verdict::Refines);
         refuted(report(&one, &painted("Other", "false", own), None));
     }
-    // One secret here, two there.
-    let [one, other] = [painted("Lib", "true", ""), painted("Lib", "true", "controlled secret: Boolean")];
+    // One secret here, two there: that of the same module is meant.
+    let (one, own) = (painted("Lib", "true", ""), "controlled secret: Boolean");
+    assert_eq!(report(&one, &painted("Lib", "true", own), None).verdict, Verdict::Refines);
+    refuted(report(&one, &painted("Lib", "false", own), None));
+    let other = painted("Other", "true", own);
     for pair in [[&one, &other], [&other, &one]] {
         let faulty = Coupling::new(pair, None, &machine::Limits::default()).expect_err("which one is meant?");
         assert!(faulty.faults[0].message.contains("several functions `secret`"), "{:?}", faulty.faults);

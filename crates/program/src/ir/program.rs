@@ -64,8 +64,10 @@ pub struct Function {
     pub library: bool,
     /// Whether the model's own file sees it: what an export list hides can be named neither there nor in a scenario.
     pub seen: bool,
-    /// The module of a hidden one that shares its name with another function: `NAME.f` where runs are told.
-    pub module: Option<String>,
+    /// The name of the file's machine that declares it.
+    pub module: String,
+    /// It is hidden, and another function with as many parameters has its name: runs tell it as `MODULE.f`.
+    pub qualified: bool,
     /// Where it is declared.
     pub span: Span,
 }
@@ -73,9 +75,9 @@ pub struct Function {
 impl Function {
     /// The name by which runs are told: no other function of as many parameters has it.
     pub fn shown(&self) -> Cow<'_, str> {
-        match &self.module {
-            Some(module) => format!("{module}.{}", self.name).into(),
-            None => self.name.as_str().into(),
+        match self.qualified {
+            true => format!("{}.{}", self.module, self.name).into(),
+            false => self.name.as_str().into(),
         }
     }
 }

@@ -47,10 +47,8 @@ impl<'m> Lowering<'m, '_> {
             let is_homonym = |(other, one): (FunctionId, &model::Function)| {
                 other != id && one.name == function.name && one.parameters.len() == function.parameters.len()
             };
-            let module = match !seen && self.model.functions().any(is_homonym) {
-                true => self.model.modules.get(&function.span.file).cloned(),
-                false => None,
-            };
+            let qualified = !seen && self.model.functions().any(is_homonym);
+            let module = self.model.modules.get(&function.span.file).cloned().unwrap_or_default();
             self.program.functions.push(Function {
                 name: function.name.clone(),
                 kind: function.kind,
@@ -61,6 +59,7 @@ impl<'m> Lowering<'m, '_> {
                 library: function.library,
                 seen,
                 module,
+                qualified,
                 span: function.span,
             });
             let id = Some(FunctionId(self.program.functions.len() as u32 - 1));

@@ -23,17 +23,27 @@ impl Builder {
     ) -> Result<Option<FunctionId>, Diagnostic> {
         let function = self.coupling.programs[ABSTRACT].function(here);
         let domains = self.domains(ABSTRACT, here);
-        // Those of the model's own file, and the others.
-        let alike = |side: usize| -> (Vec<FunctionId>, Vec<FunctionId>) {
+        let alike = |side: usize| -> Vec<(FunctionId, &str)> {
+            let all = (0..).map(FunctionId).zip(&self.coupling.programs[side].functions);
+            let named = all.filter(|(_, one)| one.name == function.name && is_meant(one));
+            let alike = named.filter(|(id, _)| self.domains(side, *id) == domains);
+            alike.map(|(id, one)| (id, one.module.as_str())).collect()
+        };
+        let [ours, theirs] = [alike(ABSTRACT), alike(CONCRETE)];
+        // Those of one module belong together.
+        let of_module = |all: &[(FunctionId, &str)], module: &str| all.iter().filter(|one| one.1 == module).count();
+        let in_both = |one: &(FunctionId, &str)| of_module(&ours, one.1) == 1 && of_module(&theirs, one.1) == 1;
+        if in_both(&(here, &function.module)) {
+            return Ok(theirs.iter().find(|one| one.1 == function.module).map(|one| one.0));
+        }
+        // So do those of the models' own files, and the only ones besides.
+        let rest = |side: usize, all: &[(FunctionId, &str)]| -> (Vec<FunctionId>, Vec<FunctionId>) {
             let program = &self.coupling.programs[side];
             let file = program.main.map(|main| program.procedure(main).span.file);
-            let all = (0..).map(FunctionId).zip(&program.functions);
-            let named = all.filter(|(_, one)| one.name == function.name && is_meant(one));
-            let alike = named.map(|(id, _)| id).filter(|id| self.domains(side, *id) == domains);
-            alike.partition(|id| Some(program.function(*id).span.file) == file)
+            let left = all.iter().filter(|one| !in_both(one)).map(|one| one.0);
+            left.partition(|id| Some(program.function(*id).span.file) == file)
         };
-        let [(own, others), (their_own, their_others)] = [alike(ABSTRACT), alike(CONCRETE)];
-        // Those of the models' own files belong together, and so do the only ones besides.
+        let [(own, others), (their_own, their_others)] = [rest(ABSTRACT, &ours), rest(CONCRETE, &theirs)];
         let (ours, theirs) = match (own.is_empty() || their_own.is_empty(), own.contains(&here)) {
             (true, _) => ([own, others].concat(), [their_own, their_others].concat()),
             (false, true) => (own, their_own),
