@@ -72,8 +72,7 @@ vscode: ## the extension for VS Code, checked and packed: editors/vscode/grounds
 
 full: export GROUNDSTATE_FULL = 1
 full: ## `make test` with the largest samples, and what is slow and rarely breaks: the oldest Rust, sanitizers, all robots, proofs, mutants: hours
-	$(MAKE) --no-print-directory test
-	@for part in msrv verify cpp-full robot-full mutants cpp-mutants studio-full; do \
+	@for part in test msrv verify cpp-full robot-full mutants cpp-mutants studio-full; do \
 	    $(TIMED) $$part $(MAKE) --no-print-directory $$part || failed="$$failed $$part"; \
 	done; $(TIMED); test -z "$$failed" || { echo "failed:$$failed"; exit 1; }
 
