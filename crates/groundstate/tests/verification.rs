@@ -192,6 +192,18 @@ fn the_pages_of_faults_show_them() {
     let fault = groundstate::diagnose_unbounded(unbounded, &program, &loaded.sources);
     let message = "the values of inflow cannot be enumerated (example.asm:4:15)";
     assert_eq!((fault.id, fault.message.as_str()), ("no-bound", message));
+    let unclear = Page::fault("assumption-without-value");
+    let text = unclear.example("asmetal verify");
+    let (program, report) = check(text, 1);
+    for verdict in &report.verdicts {
+        let Outcome::Unknown(reasons) = &verdict.outcome else { panic!("{verdict:?}") };
+        let [Reason::Unbounded(unbounded)] = &reasons[..] else { panic!("{reasons:?}") };
+        let loaded =
+            groundstate::load(SourceFile::new(file(text), text), &mut one_model(text)).expect("it has no faults");
+        let fault = groundstate::diagnose_unbounded(unbounded, &program, &loaded.sources);
+        let message = "an assumption has no value for some inputs (example.asm:9:11)";
+        assert_eq!((fault.id, fault.message.as_str()), ("assumption-without-value", message));
+    }
     let outside = Page::fault("outside-solver");
     let text = outside.example("asmetal solver");
     let loaded = groundstate::load(SourceFile::new(file(text), text), &mut one_model(text));

@@ -99,9 +99,9 @@ fn step(machine: &mut Machine, settings: &Settings, told: &Told, ends: Option<Ta
             for (index, (formula, assumed)) in settings.step_conditions.iter().enumerate() {
                 match machine.evaluate(formula, &mut given) {
                     Ok(Value::Boolean(true)) => {}
-                    Ok(_) if *assumed => return false,
-                    // An assumption that cannot be evaluated is a fault of the step.
-                    Err(fault) if *assumed || !fault.kind.is_of_the_model() => {
+                    // Where an assumption has no value it is not known whether a step counts.
+                    Ok(_) | Err(_) if *assumed => return false,
+                    Err(fault) if !fault.kind.is_of_the_model() => {
                         return is_fault(&fault, ends) && same_inputs(machine);
                     }
                     Ok(_) | Err(_) => violated |= ends == Some(Target::StepCondition(index)),
@@ -114,9 +114,7 @@ fn step(machine: &mut Machine, settings: &Settings, told: &Told, ends: Option<Ta
         }
         Err(fault) => {
             let mut assumptions = settings.step_conditions.iter().filter(|(_, assumed)| *assumed);
-            let mut holds =
-                |formula| !matches!(machine.evaluate(formula, &mut given), Ok(value) if value != Value::Boolean(true));
-            if !assumptions.all(|(formula, _)| holds(formula)) {
+            if !assumptions.all(|(formula, _)| machine.evaluate(formula, &mut given) == Ok(Value::Boolean(true))) {
                 return false;
             }
             Some(fault)

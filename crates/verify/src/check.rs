@@ -149,7 +149,7 @@ fn of_runs(
     let stays = |reason: &&Reason| !matches!(reason, Reason::Stopped(_));
     let reasons: Vec<Reason> = reasons.iter().filter(stays).copied().collect();
     let mut unknown = BTreeMap::new();
-    // The search has begun with initial states, so they exist.
+    // The search has begun.
     let decided = decide_after(program, &plan, walk, watch).unwrap_or_default();
     let outcomes = decided.into_iter().map(|(index, decided)| {
         let outcome = match decided {
@@ -160,6 +160,8 @@ fn of_runs(
             // Untried inputs may add what one tree of runs lacks, or let an ended run go on, but cannot undo what a single run does.
             OfRuns::Violated(trace) if !(trace.branch || trace.ends) || reasons.is_empty() => Outcome::Violated(trace),
             OfRuns::Holds | OfRuns::Violated(_) => Outcome::Unknown(reasons.clone()),
+            // There are no runs, of which nothing could be told.
+            OfRuns::Unknown(_) if reasons.contains(&Reason::Vacuous) => Outcome::Unknown(reasons.clone()),
             OfRuns::Unknown(why) => {
                 unknown.insert(index, why);
                 Outcome::Unknown(vec![Reason::Temporal])

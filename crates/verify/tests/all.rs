@@ -22,4 +22,5 @@ mod storage;
 mod symbolic;
 mod symmetry;
 mod temporal;
+mod unclear;
 mod vacuity;

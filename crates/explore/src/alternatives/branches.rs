@@ -220,6 +220,14 @@ impl Branches {
             self.endless(UnboundedKind::Limit, fault.span);
         }
     }
+
+    /// Where an assumption has no value: whether the step counts is not known.
+    pub(crate) fn note_unclear(&mut self, fault: &Fault) {
+        // An input that cannot be gone through has been noted already.
+        if self.unbounded.is_none() {
+            self.endless(UnboundedKind::Assumption, fault.span);
+        }
+    }
 }
 
 impl Alternatives for Branches {

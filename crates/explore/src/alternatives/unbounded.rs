@@ -16,6 +16,8 @@ pub enum UnboundedKind {
     Clock,
     /// What a step may take: see [`machine::Limits`].
     Limit,
+    /// Those of which an assumption cannot be evaluated: it is not known whether they count.
+    Assumption,
 }
 
 /// Alternatives without end.
@@ -23,7 +25,7 @@ pub enum UnboundedKind {
 pub struct Unbounded {
     /// Of what kind.
     pub kind: UnboundedKind,
-    /// The function's declaration, or the choose rule.
+    /// The function's declaration, the choose rule, or what of the assumption has no value.
     pub span: Span,
 }
 
@@ -35,6 +37,7 @@ impl Unbounded {
             UnboundedKind::Choice => (1, 0),
             UnboundedKind::Clock => (2, 0),
             UnboundedKind::Limit => (3, 0),
+            UnboundedKind::Assumption => (4, 0),
         };
         let Span { file, start, end } = self.span;
         [kind, function.into(), file.0.into(), start.into(), end.into()]
@@ -48,6 +51,7 @@ impl Unbounded {
             1 => UnboundedKind::Choice,
             2 => UnboundedKind::Clock,
             3 => UnboundedKind::Limit,
+            4 => UnboundedKind::Assumption,
             _ => return None,
         };
         Some(Unbounded { kind, span: Span { file: FileId(file as u32), start: start as u32, end: end as u32 } })

@@ -369,7 +369,7 @@ impl Explorer {
     }
 
     /// Evaluates the conditions on a step that was made or has a fault. Assumptions come first: what they exclude counts for
-    /// nothing else.
+    /// nothing else, and where one has no value it is not known whether the step counts.
     fn check_step(&mut self, attempt: &mut Attempt, made: Result<(), Fault>, read: &mut Read<'_>) -> Result<(), Fault> {
         let Explorer { settings, machine, branches, .. } = self;
         let mut unclear = None;
@@ -383,10 +383,11 @@ impl Explorer {
                 Err(fault) => _ = unclear.get_or_insert(fault),
             }
         }
-        made?;
         if let Some(fault) = unclear {
+            branches.note_unclear(&fault);
             return Err(fault);
         }
+        made?;
         for check in settings.checks_of_steps().skip_while(|check| check.assumed) {
             // What cannot be evaluated is not true. The step is made all the same.
             let truth = match machine.evaluate(check.formula, branches) {

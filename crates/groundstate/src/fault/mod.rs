@@ -17,6 +17,7 @@ pub(crate) fn no_term(file: FileId) -> Diagnostic {
 
 /// The kinds of faults that arise here, except those of [`REVIEW_IDS`](review::REVIEW_IDS) and of steps that fail.
 pub const IDS: &[&str] = &[
+    "assumption-without-value",
     "bound-reached",
     "check-failed",
     "expected-failure",

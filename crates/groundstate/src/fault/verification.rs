@@ -56,7 +56,7 @@ pub fn diagnose_unbounded(unbounded: &Unbounded, program: &Program, sources: &So
             let domain = &program.domain(declared.codomain).name;
             let message = format!("the values of {} cannot be enumerated ({place})", declared.name);
             no_bound(unbounded.span, message)
-                .here(format!("{domain} is infinite, or its elements are not known"))
+                .here(format!("{domain} is infinite or empty, or its elements are not known"))
                 .with_help(format!("bound it: `--bound {}=0..10`, or an INVAR in the model", declared.name))
         }
         UnboundedKind::Choice => no_bound(unbounded.span, format!("the candidates of a choice are infinite ({place})"))
@@ -69,6 +69,12 @@ pub fn diagnose_unbounded(unbounded: &Unbounded, program: &Program, sources: &So
             Diagnostic::error("limit-reached", unbounded.span, format!("a step reaches a limit ({place})"))
                 .here("reached here")
                 .with_help("if the model is right, raise the limit: `groundstate verify --help`")
+        }
+        UnboundedKind::Assumption => {
+            let message = format!("an assumption has no value for some inputs ({place})");
+            Diagnostic::error("assumption-without-value", unbounded.span, message)
+                .here("cannot be evaluated")
+                .with_help("say first where it can be: in `x != 0 and idiv(6, x) > 2` nothing is divided by 0")
         }
     }
 }

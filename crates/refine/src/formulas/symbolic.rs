@@ -290,11 +290,11 @@ fn encode(
     untold: &BTreeMap<usize, String>,
 ) -> Result<Made, Outside> {
     encoder.step()?;
-    let strays = std::mem::take(&mut encoder.beyond);
+    let mut strays = std::mem::take(&mut encoder.beyond);
     let course = encoder.course();
     let is_concrete = of.side == CONCRETE;
     let (mut goes, mut counts) = (course.live, Terms::TRUE);
-    let mut ill = Vec::new();
+    let mut ill = Terms::FALSE;
     let (mut surely, mut perhaps) = (Vec::new(), Vec::new());
     let invars = of.program.properties.iter().filter(|property| property.kind == PropertyKind::Invar);
     for property in invars {
@@ -311,11 +311,18 @@ fn encode(
             perhaps.push(possible);
             continue;
         }
-        // An assumption about a step: one that cannot be evaluated is a fault of the step.
+        // An assumption about a step: where it cannot be evaluated, nobody knows whether the step counts.
         counts = encoder.terms.and([counts, possible]);
-        ill.push(encoder.terms.and([course.live, unclear]));
+        ill = encoder.terms.or([ill, unclear]);
+        let what = "an assumption that has no value".to_string();
+        strays.push((unclear, Outside { what, span: encoder.program.term_span(property.formula.body) }));
         goes = encoder.terms.and([goes, if is_concrete { possible } else { sure }]);
     }
+    for (stray, _) in strays.iter_mut() {
+        *stray = encoder.terms.and([*stray, counts]);
+    }
+    let is_clear = encoder.terms.not(ill);
+    let counts = encoder.terms.and([counts, is_clear]);
     let invariants = match invariants(encoder, of, untold) {
         Ok(invariants) => invariants,
         Err((index, outside)) => return Ok(Err(Again::Untold(index, outside))),
@@ -328,8 +335,6 @@ fn encode(
         let fault = encoder.terms.and([fault, fits]);
         faults.push((class_in_words(class), encoder.terms.and([fault, counts])));
     }
-    let ill = encoder.terms.or(ill);
-    faults.push(("a condition on the step that cannot be evaluated", encoder.terms.and([ill, counts])));
     let mut reads = Reads::default();
     let reads_stray = look_up(encoder, of, of.read, &mut reads)?;
     let step_reads_stray = look_up(encoder, of, of.read_in_step, &mut reads)?;

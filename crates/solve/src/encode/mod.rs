@@ -256,25 +256,16 @@ impl Encoder {
     pub fn condition(&mut self, expression: &Expression) -> Result<(Node, Node)> {
         let former = self.course();
         self.resume(Course::NOTHING);
-        let truth = self.closed_truth(expression);
+        let span = self.program.term_span(expression.body);
+        let symbol = self.in_frame(Vec::new(), expression.frame, span, |this| this.evaluate(expression.body));
         let live = self.live;
         self.resume(former);
-        let truth = truth?;
-        Ok((self.terms.and([truth, live]), live))
-    }
-
-    /// Whether a condition is true, evaluated after what was executed before; its faults are the step's.
-    ///
-    /// # Errors
-    /// See [`Encoder::step`].
-    pub fn closed_truth(&mut self, expression: &Expression) -> Result<Node> {
-        let span = self.program.term_span(expression.body);
-        let symbol = self.in_frame(Vec::new(), expression.frame, span, |this| this.evaluate(expression.body))?;
-        Ok(match symbol {
+        let truth = match symbol? {
             Symbol::Known(value) => self.terms.boolean(value == Value::Boolean(true)),
             Symbol::Open(Open { shape: Shape::Boolean, value, defined }) => self.terms.and([value, defined]),
             _ => Terms::FALSE,
-        })
+        };
+        Ok((self.terms.and([truth, live]), live))
     }
 
     /// The value of a term with these arguments in the state before the step, and the condition that it can be evaluated.
@@ -306,11 +297,6 @@ impl Encoder {
     pub fn resume(&mut self, course: Course) {
         let Course { path, live, faults, overflow } = course;
         (self.path, self.live, self.faults, self.overflow) = (path, live, faults, overflow);
-    }
-
-    /// Restricts everything from now on to this condition.
-    pub fn assume(&mut self, condition: Node) {
-        self.path = self.terms.and([self.path, condition]);
     }
 
     /// Runs `body` under an additional condition; `None` if that can never hold.

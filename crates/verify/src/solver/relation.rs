@@ -50,7 +50,8 @@ pub(crate) struct Relation {
     pub next: Vec<Node>,
     pub inputs: Vec<Input>,
     pub choices: Vec<Choice>,
-    /// Facts about a state and its step: the domains, the assumptions, the inputs, that there is a step.
+    /// Facts about a state and its step: the domains; that no assumption about the state is false; the inputs; that there is a step
+    /// from a state whose assumptions are true.
     pub typed: Node,
     pub admitted: Node,
     pub given: Node,
@@ -137,9 +138,8 @@ impl Relation {
     fn encode(encoder: &mut Encoder, plan: &Plan, starts: &[Start]) -> Result<Built, Unrelated> {
         let settings = &plan.settings;
         encoder.step()?;
-        let mut excluded = Terms::FALSE;
-        // A fault of a step counts unless an assumption that has a value rules the step out.
-        let mut ruled_out = Terms::FALSE;
+        // A step counts if all assumptions are true, and does not if one is false; otherwise nobody knows.
+        let (mut ruled_out, mut unclear) = (Terms::FALSE, Vec::new());
         let mut failures = Vec::new();
         for (index, (formula, assumed)) in settings.step_conditions.iter().enumerate() {
             let (alone, live) = encoder.condition(formula)?;
@@ -151,25 +151,26 @@ impl Relation {
             let not = encoder.terms.not(alone);
             let fails = encoder.terms.and([live, not]);
             ruled_out = encoder.terms.or([ruled_out, fails]);
-            let truth = encoder.closed_truth(formula)?;
-            let course = encoder.course();
-            let not = encoder.terms.not(truth);
-            let fails = encoder.terms.and([course.path, course.live, not]);
-            excluded = encoder.terms.or([excluded, fails]);
-            encoder.assume(truth);
+            if live != Terms::TRUE {
+                unclear.push((encoder.terms.not(live), without_value(encoder.program.term_span(formula.body))));
+            }
         }
+        let may_count = encoder.terms.not(ruled_out);
+        let mut beyond = Vec::new();
+        for (unclear, outside) in unclear {
+            beyond.push((encoder.terms.and([unclear, may_count]), outside));
+        }
+        let unclear = encoder.terms.or(beyond.iter().map(|one| one.0));
+        let is_clear = encoder.terms.not(unclear);
+        let counts = encoder.terms.and([may_count, is_clear]);
         let course = encoder.course();
-        let included = encoder.terms.not(excluded);
-        let goes = encoder.terms.and([course.live, included]);
-        let counts = encoder.terms.not(ruled_out);
+        let goes = encoder.terms.and([course.live, counts]);
         let fault = |class: usize| (Target::Fault(class), encoder.terms.and([course.faults[class], counts]));
         let mut targets: Vec<(Target, Node)> = (0..3).map(fault).collect();
         for (index, fails) in failures.into_iter().filter(|(index, _)| plan.wanted_steps.contains(index)) {
-            let fails = encoder.terms.and([course.path, course.live, fails, included]);
-            targets.push((Target::StepCondition(index), fails));
+            targets.push((Target::StepCondition(index), encoder.terms.and([goes, fails])));
         }
-        let mut conditions = Vec::new();
-        let mut beyond = Vec::new();
+        let (mut conditions, mut refuted) = (Vec::new(), Terms::FALSE);
         for (index, condition) in settings.conditions.iter().enumerate() {
             let before = encoder.beyond.len();
             let (truth, live) = encoder.condition(condition)?;
@@ -178,16 +179,21 @@ impl Relation {
             let strays = encoder.terms.or(strays);
             conditions.push(truth);
             if live != Terms::TRUE && (plan.assumed.contains(&index) || plan.terminal == Some(index)) {
-                let what = "an assumption that has no value".to_string();
-                let span = encoder.program.term_span(condition.body);
-                beyond.push((encoder.terms.not(live), Outside { what, span }));
+                let outside = without_value(encoder.program.term_span(condition.body));
+                beyond.push((encoder.terms.not(live), outside));
+            }
+            if plan.assumed.contains(&index) {
+                let not = encoder.terms.not(truth);
+                let fails = encoder.terms.and([live, not]);
+                refuted = encoder.terms.or([refuted, fails]);
             }
             if plan.wanted.contains(&index) {
                 let violated = [encoder.terms.not(truth), encoder.terms.not(strays)];
                 targets.push((Target::Condition(index), encoder.terms.and(violated)));
             }
         }
-        let admitted = encoder.terms.and(plan.assumed.iter().map(|index| conditions[*index]));
+        let admitted = encoder.terms.not(refuted);
+        let surely_admitted = encoder.terms.and(plan.assumed.iter().map(|index| conditions[*index]));
         let (mut next, mut moves) = (Vec::new(), Vec::new());
         for index in 0..encoder.places.len() {
             let place = encoder.places[index].clone();
@@ -213,7 +219,7 @@ impl Relation {
         let typed = encoder.terms.and(typed);
         let mut untold = Vec::new();
         let disturbed: Vec<Node> =
-            course.faults.iter().copied().chain(encoder.beyond.iter().map(|one| one.0)).collect();
+            course.faults.into_iter().chain([unclear]).chain(encoder.beyond.iter().map(|one| one.0)).collect();
         let disturbed = encoder.terms.or(disturbed);
         let awake = encoder.terms.or([moves, disturbed]);
         match possible(encoder, awake) {
@@ -225,6 +231,11 @@ impl Relation {
                 targets.push((Target::Rest, encoder.terms.and([resting, may_not])));
             }
             None => untold.push(Target::Rest),
+        }
+        // What is violated is so in a state that counts, and after states that count.
+        let goes = encoder.terms.and([goes, surely_admitted]);
+        for (_, found) in &mut targets {
+            *found = encoder.terms.and([*found, surely_admitted]);
         }
         let relation = Relation {
             terms: Terms::default(),
@@ -276,6 +287,11 @@ impl Relation {
         };
         self.inputs.iter().filter_map(variable).collect()
     }
+}
+
+/// What stands outside where an assumption cannot be evaluated.
+fn without_value(span: Span) -> Outside {
+    Outside { what: "an assumption that has no value".to_string(), span }
 }
 
 struct Built {

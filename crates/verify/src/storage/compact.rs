@@ -138,7 +138,8 @@ impl Compact {
     /// See [`crate::storage::Store::omission`].
     pub fn omission(&self) -> f64 {
         match &self.seen {
-            Seen::Hashes { .. } => self.len as f64 * (self.len as f64 - 1.0).max(0.0) / 2.0 / PRIME as f64,
+            // The first state that is omitted was mistaken for one of those met until then.
+            Seen::Hashes { .. } => self.len as f64 * (self.len as f64 + 1.0) / 2.0 / PRIME as f64,
             Seen::Bits { omitted, .. } => *omitted,
         }
     }

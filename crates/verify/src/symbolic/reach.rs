@@ -101,7 +101,7 @@ impl Reach {
         settings.engine = EngineChoice::Interpreted;
         settings.numbered = true;
         let mut explorer = Explorer::new(program, settings, widening, &interner)?;
-        sample(&mut explorer).map_err(Trouble::TooNarrow)?;
+        sample(&mut explorer, &plan.assumed).map_err(Trouble::TooNarrow)?;
         let fields = explorer.fields();
         let order = force(fields.len(), &explorer.dependencies());
         let order: Vec<_> = order.into_iter().map(|field| fields[field]).collect();
@@ -437,10 +437,15 @@ impl Reach {
     }
 }
 
-/// Expands some states one by one, to see what steps read.
-fn sample(explorer: &mut Explorer) -> Result<(), Widening> {
+/// Expands some states one by one, to see what steps read; only those that the assumptions admit, since what cannot be gone through in
+/// another one is no concern of the search.
+fn sample(explorer: &mut Explorer, assumed: &[usize]) -> Result<(), Widening> {
+    let admits = |explorer: &mut Explorer, state: &[u64]| {
+        assumed.iter().all(|condition| explorer.truth(*condition, state) == Truth::True)
+    };
     let words = explorer.words();
     let mut states: Vec<Box<[u64]>> = explorer.initial().iter().map(|(state, _)| state.into()).collect();
+    states.retain(|state| admits(explorer, state));
     let mut met: FxHashSet<Box<[u64]>> = states.iter().cloned().collect();
     let mut successors = Vec::new();
     let mut next = 0;
@@ -448,7 +453,7 @@ fn sample(explorer: &mut Explorer) -> Result<(), Widening> {
         successors.clear();
         explorer.expand(&states[next], &mut successors)?;
         for successor in successors.chunks_exact(words) {
-            if states.len() < SAMPLE && met.insert(successor.into()) {
+            if states.len() < SAMPLE && met.insert(successor.into()) && admits(explorer, successor) {
                 states.push(successor.into());
             }
         }
