@@ -5,6 +5,8 @@
 import type { Refusal } from './diagram/gestures'
 import type { Branch, JobKind, Kind, Shape } from './diagram/protocol'
 import { FILES } from './file-words'
+import { MACHINES } from './machine-words'
+import { SYSTEM_RUN } from './system-run-words'
 import { CHECK, MARKS, OLDER, REFINED } from './found-words'
 import { KEPT, LOST } from './lost-words'
 
@@ -303,6 +305,8 @@ export const words = {
     location: 'Location',
   },
   files: FILES,
+  machines: MACHINES,
+  systemRun: SYSTEM_RUN,
   refined: REFINED,
   check: CHECK,
   older: OLDER,
@@ -529,7 +533,7 @@ export const words = {
       ['F', 'Show all'],
       ['Space and drag', 'Move the paper'],
     ]],
-    ['In the list of files', [
+    ['In the list of files, on the tabs of drawings', [
       ['F2', 'Rename'],
       ['Del', 'Delete'],
       ['Menu key', 'What else can be done'],

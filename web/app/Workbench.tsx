@@ -2,7 +2,7 @@
 //
 // Owns: what is where, sizes, the address of what is in front. In: the server and its greeting.
 
-import { type KeyboardEvent as ReactKeyboardEvent, type ReactNode, Suspense, lazy, useCallback, useEffect, useMemo, useState } from 'react'
+import { type ReactNode, Suspense, lazy, useCallback, useEffect, useMemo, useState } from 'react'
 
 import '@xyflow/react/dist/base.css'
 import './shell.css'
@@ -16,6 +16,7 @@ import './script.css'
 import './marks.css'
 import './stategraph.css'
 import './system.css'
+import './systemrun.css'
 import './code.css'
 import './conflict.css'
 import './narrow.css'
@@ -39,8 +40,10 @@ import { TimelinePanel } from '../editor/TimelinePanel'
 import { TimesPanel, useSystem } from '../editor/TimesPanel'
 import { words } from '../words'
 import { commands, shortcut } from './commands'
+import { Drawings } from './Drawings'
 import { Sidebar, fileName, kindIcon } from './Sidebar'
 import { Splitter } from './Splitter'
+import { tabKey } from './tabs'
 import { TopBar } from './TopBar'
 import { Tour } from './Tour'
 import { Welcome } from './Welcome'
@@ -186,49 +189,6 @@ function Editor({ studio, doc, chart }: { studio: Studio; doc: Doc; chart: Chart
       {layout !== 'picture' && <TextPane studio={studio} doc={doc} />}
     </div>
   )
-}
-
-function Drawings({ studio, chart }: { studio: Studio; chart: Chart }): ReactNode {
-  const pictures = useStore(chart.store, (state) => state.pictures)
-  const shown = useStore(chart.store, (state) => state.shown)
-  const drawings = pictures?.drawings ?? []
-  const turn = (name: string): void => {
-    studio.store.set({ trail: [] })
-    chart.turnTo(name)
-    void studio.runner.evaluate()
-  }
-  return (
-    <div className="drawings">
-      <div className="drawing-tabs" role="tablist" aria-label={words.shell.drawings} onKeyDown={tabKey}>
-      {drawings.map((drawing) => (
-        <button key={drawing.name} role="tab" className={drawing.kind} aria-selected={drawing.name === shown} tabIndex={drawing.name === shown ? 0 : -1} onClick={() => turn(drawing.name)}>
-          <Icon name={drawing.kind === 'pattern' ? 'instance' : drawing.kind === 'system' ? 'component' : 'state'} size={14} />
-          {drawing.title || drawing.name}
-        </button>
-      ))}
-      </div>
-      {!chart.doc.readOnly && (
-        <button
-          className="quiet"
-          title={words.canvas.newMachine}
-          aria-label={words.canvas.newMachine}
-          onClick={() => studio.store.set({ dialog: { kind: 'machine', uri: chart.doc.file.uri } })}
-        >
-          <Icon name="plus" size={14} />
-        </button>
-      )}
-    </div>
-  )
-}
-
-// Arrow keys go from tab to tab; Enter opens the one that has the focus.
-function tabKey(event: ReactKeyboardEvent<HTMLElement>): void {
-  const tabs = [...event.currentTarget.querySelectorAll<HTMLElement>('[role=tab]')]
-  const at = tabs.indexOf(document.activeElement as HTMLElement)
-  const to = { ArrowRight: at + 1, ArrowLeft: at - 1, Home: 0, End: tabs.length - 1 }[event.key]
-  if (at < 0 || to === undefined) return
-  event.preventDefault()
-  tabs.at(to % tabs.length)?.focus()
 }
 
 const PANELS: { panel: Panel; icon: string }[] = [

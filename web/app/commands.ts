@@ -66,6 +66,13 @@ export function commands(studio: Studio): Command[] {
       { name: words.commands.newMachine, icon: 'plus', act: () => studio.store.set({ dialog: { kind: 'machine', uri: active } }) },
       { name: words.commands.autoLayout, icon: 'layout', act: () => void chart.operate({ kind: 'layout' }) },
     )
+    const name = chart.drawing?.name
+    if (name !== undefined) {
+      all.push(
+        { name: words.machines.renameCommand, icon: 'text', act: () => studio.store.set({ dialog: { kind: 'renameMachine', uri: active, name } }) },
+        { name: words.machines.deleteCommand, icon: 'trash', act: () => studio.store.set({ dialog: { kind: 'deleteMachine', uri: active, name } }) },
+      )
+    }
   }
   if (doc && !doc.readOnly) all.push({ name: words.commands.format, icon: 'text', key: 'Shift Alt F', act: () => void formatDocument(doc.view) })
   const file = doc && !doc.readOnly ? doc.file : undefined

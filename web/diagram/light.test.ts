@@ -76,6 +76,8 @@ test('a few letters find a name', () => {
   expect(search('vsco', names, (name) => name)[0]?.item).toBe('VisualServoingComponent.chart')
   expect(search('coffee', names, (name) => name).map(({ item }) => item)).toEqual(['CoffeeMachine.asm'])
   expect(match('zz', 'abc')).toBeNull()
+  expect(search('delete this file', ['Delete this machine', 'Delete this file'], (name) => name).map(({ item }) => item)).toEqual(['Delete this file'])
+  expect(match('delete file', 'Delete this file')).not.toBeNull()
   expect(match('', 'abc')).toEqual({ score: 0, at: [] })
 })
 

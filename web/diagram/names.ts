@@ -32,7 +32,7 @@ export function isFileName(file: File, stem: string): boolean {
 }
 
 // The lines at which each file names another one, from 1.
-export function linesOf(places: readonly Named[]): { path: string; lines: number[] }[] {
+export function linesOf(places: readonly Pick<Named, 'path' | 'range'>[]): { path: string; lines: number[] }[] {
   const found = new Map<string, Set<number>>()
   for (const { path, range } of places) found.set(path, (found.get(path) ?? new Set()).add(range.start.line + 1))
   return [...found].map(([path, lines]) => ({ path, lines: [...lines].sort((a, b) => a - b) }))

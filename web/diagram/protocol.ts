@@ -65,6 +65,17 @@ export interface Names {
   program: { path: string; isOwn: boolean } | null
 }
 
+// What is known of the name of a machine in a chart. Its own places are in its head and its layout.
+export interface MachineNames {
+  places: { path: string; range: Range; isOwn: boolean }[]
+  // The text that it shows, with the blank before it; empty where one would be.
+  title: Range
+  // What goes with it.
+  lines: Range[]
+  // Names that it cannot have.
+  taken: string[]
+}
+
 export interface Renamed {
   path: string
   to: string

@@ -17,11 +17,19 @@ export function match(question: string, text: string): Match | null {
   const wanted = question.toLowerCase().replace(/\s+/g, '')
   if (wanted === '') return { score: 0, at: [] }
   const lower = text.toLowerCase()
-  const whole = lower.indexOf(wanted)
-  if (whole >= 0) {
-    const at = Array.from(wanted, (_, index) => whole + index)
+  // As it is typed, with the blanks between its words, or without.
+  for (const part of [question.trim().toLowerCase(), wanted]) {
+    const whole = lower.indexOf(part)
+    if (whole < 0) continue
+    const at = Array.from(part, (_, index) => whole + index)
     return { score: 1000 + (begins(text, whole) ? 200 : 0) - whole - text.length / 10, at }
   }
+  // What is taken at the beginning of a word may leave too few letters for the rest.
+  return scattered(wanted, text, true) ?? scattered(wanted, text, false)
+}
+
+function scattered(wanted: string, text: string, prefersWords: boolean): Match | null {
+  const lower = text.toLowerCase()
   const at: number[] = []
   let score = 0
   let from = 0
@@ -34,7 +42,7 @@ export function match(question: string, text: string): Match | null {
         found = index
         break
       }
-      if (index - from > 40) break
+      if (!prefersWords || index - from > 40) break
     }
     if (found < 0) return null
     score += begins(text, found) ? 20 : 5

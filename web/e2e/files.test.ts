@@ -121,6 +121,8 @@ test('no name is taken from another file, and other windows follow', async () =>
   await listed('Door.asm').click({ button: 'right' })
   await page.getByRole('menuitem', { name: 'Rename…' }).click()
   await dialog().getByRole('textbox').fill('Room')
+  // What names it is known only a little later.
+  await dialog().locator('button[type=submit]:enabled').waitFor()
   await page.keyboard.press('Enter')
   await page.locator('.notice.refused', { hasText: 'Room.asm is there already' }).waitFor()
   expect(text('Room.asm')).toBe(ROOM)
@@ -188,4 +190,33 @@ test('a picture of a text with a syntax error is called a guess', async () => {
   await shot(page, 'guess')
   await page.keyboard.type('held')
   await until(async () => (await page.locator('.stale-note').textContent()) === '', 'no guess any more')
+})
+
+test('in a narrow window the dialogs show all of a long path and their buttons', async () => {
+  const name = 'VisualServoingComponentOfTheSecondRobot'
+  writeFileSync(path(`${name}.asm`), MODEL.replace('asm Door', `asm ${name}`))
+  writeFileSync(path('Room.asm'), ROOM.replaceAll('Lamp', name))
+  await page.setViewportSize({ width: 360, height: 740 })
+  await page.goto(`${studio.address}#/${name}.asm`)
+  await page.reload()
+  await page.locator('.tab.on', { hasText: name }).waitFor()
+  const command = async (words: string): Promise<void> => {
+    await page.keyboard.press('Control+k')
+    await page.keyboard.type(words)
+    await page.getByRole('option', { name: new RegExp(words, 'i') }).click()
+  }
+  const fits = async (): Promise<void> => {
+    await dialog().locator('.named', { hasText: 'Room.asm' }).first().waitFor()
+    expect(await dialog().evaluate((frame) => frame.scrollWidth - frame.clientWidth)).toBeLessThanOrEqual(0)
+    for (const button of await dialog().locator('footer button').all()) {
+      const { x, width } = (await button.boundingBox()) ?? { x: 0, width: 999 }
+      expect(x + width).toBeLessThanOrEqual(350)
+    }
+    await dialog().getByRole('button', { name: 'Cancel' }).click()
+  }
+  await command('Rename this file')
+  await shot(page, 'rename-file-narrow')
+  await fits()
+  await command('Delete this file')
+  await fits()
 })

@@ -1,13 +1,15 @@
 // How the studio looks: pictures of each view in light and dark at 1400 and 1024 pixels, and what axe finds in them.
 
-import { readFileSync } from 'node:fs'
+import { readFileSync, writeFileSync } from 'node:fs'
 import { createRequire } from 'node:module'
+import { join } from 'node:path'
 
 import type { Browser, Page } from 'playwright-core'
 import { afterAll, beforeAll, expect, test } from 'vitest'
 
 import { type Trouble, opened, page as newPage, shape, shot } from './browser'
 import { lampBuilt } from './lamp'
+import { LATE } from './late'
 import { type Served, copied, removed, served } from './served'
 
 const AXE = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8')
@@ -19,6 +21,7 @@ const trouble: Trouble = { told: [] }
 beforeAll(async () => {
   const folder = copied('examples', 'library')
   lampBuilt(folder)
+  writeFileSync(join(folder, 'Late.chart'), LATE)
   studio = await served(folder)
   browser = await opened()
 })
@@ -114,6 +117,28 @@ const VIEWS: [string, string, (page: Page) => Promise<void>][] = [
       await page.keyboard.press('Home')
       await page.keyboard.press('ArrowRight')
       await page.locator('.graph-state').waitFor()
+    },
+  ],
+  [
+    'system-run',
+    '#/Late.chart',
+    async (page) => {
+      await shape(page, 'sensing').waitFor()
+      await page.getByRole('button', { name: 'Verify', exact: true }).click()
+      await page.locator('.verdict').getByRole('button', { name: /^Play its/ }).click({ timeout: 40_000 })
+      await page.getByRole('button', { name: 'One step on' }).click()
+      await page.locator('.happened').waitFor()
+    },
+  ],
+  [
+    'rename-machine',
+    '#/Lamp.chart',
+    async (page) => {
+      await shape(page, 'on').waitFor()
+      await page.getByRole('button', { name: 'Rename or delete this drawing' }).click()
+      await page.getByRole('menuitem', { name: 'Rename…' }).click()
+      await page.locator('dialog').getByLabel('Name', { exact: true }).fill('state')
+      await page.locator('dialog .note.bad').waitFor()
     },
   ],
   [

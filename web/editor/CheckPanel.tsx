@@ -7,6 +7,7 @@ import { words } from '../words'
 import { changedSince } from './currency'
 import { Icon } from './icons'
 import { MARKED, Marked } from './Marked'
+import { Player } from './Player'
 import { PROGRAM_LINES, ProgramResult, latest } from './ProgramResult'
 import { REFINEMENT, Refined, refinementOf } from './Refined'
 import { TimesTables } from './TimesTable'
@@ -224,14 +225,14 @@ function VerdictLine({ studio, job, verdict }: { studio: Studio; job: Job; verdi
         <Icon name={icon} size={13} />
         {said}
       </span>
-      {verdict.at ? (
+      {verdict.at && studio.named(verdict.at.file) ? (
         <button className="link-button mono" onClick={() => void goTo(studio, verdict.at)}>
           {verdict.check}
         </button>
       ) : verdict.kind === 'builtin' ? (
         <span>{words.check.builtin[verdict.check] ?? verdict.check}</span>
       ) : (
-        <code>{verdict.check}</code>
+        <code title={words.systemRun.claim(verdict.check) ?? undefined}>{verdict.check}</code>
       )}
       <span className="faint">{verdict.by ?? (verdict.states !== undefined ? words.check.states(verdict.states) : (verdict.reasons ?? []).join(' '))}</span>
       {left && <span className="faint left-out">{leftOut(steps, left)}</span>}
@@ -331,64 +332,5 @@ function Output({ studio, lines }: { studio: Studio; lines: (string | Record<str
         )
       })}
     </ul>
-  )
-}
-
-// A counterexample, step by step; the charts show its state.
-function Player({ studio, played }: { studio: Studio; played: NonNullable<ReturnType<typeof useFrame>> }): ReactNode {
-  const { frame, count, end, verdict, playing } = played
-  const { jobs } = studio
-  const last = count - 1
-  const go = (at: number): void => jobs.play(playing.job, playing.check, Math.max(0, Math.min(at, last)))
-  return (
-    <section className="player" aria-label={words.check.counterexample}>
-      <header className="row">
-        <button className="square" title={words.check.previous} aria-label={words.check.previous} disabled={playing.at === 0} onClick={() => go(playing.at - 1)}>
-          <Icon name="back" />
-        </button>
-        <button className="square" title={words.check.next} aria-label={words.check.next} disabled={playing.at >= last} onClick={() => go(playing.at + 1)}>
-          <Icon name="step" />
-        </button>
-        <input type="range" min={0} max={last} value={playing.at} aria-label={words.check.counterexample} onChange={(event) => go(Number(event.target.value))} />
-        <span className="run-step">
-          {words.run.stepNumber(frame.step)} / {end}
-        </span>
-        <button className="square" title={words.check.leave} aria-label={words.check.leave} onClick={() => jobs.leave()}>
-          <Icon name="close" />
-        </button>
-      </header>
-      <div className="scroll" tabIndex={0}>
-        {verdict.again_from !== undefined && verdict.again_from !== null && <p className="note">{words.check.repeats(verdict.again_from)}</p>}
-        {verdict.omitted?.trace && playing.at === verdict.omitted.trace.after && <p className="note">{words.check.between(verdict.omitted.trace.steps)}</p>}
-        {frame.fault !== null && <p className="note bad">{frame.fault}</p>}
-        {frame.inputs.length > 0 && <Pairs title={words.check.inputs} pairs={frame.inputs} />}
-        {frame.choices.length > 0 && (
-          <p className="choices">
-            {words.check.choices}: <code>{frame.choices.join(', ')}</code>
-          </p>
-        )}
-        <table>
-          <tbody>
-            {[...frame.state].map(([location, value]) => (
-              <tr key={location} className={frame.changed.has(location) ? 'changed' : undefined}>
-                <th scope="row" title={location}>
-                  {location}
-                </th>
-                <td title={value}>{value}</td>
-                <td className="before" title={frame.changed.get(location)}>{frame.changed.has(location) ? `${words.run.was} ${frame.changed.get(location)}` : ''}</td>
-              </tr>
-            ))}
-          </tbody>
-        </table>
-      </div>
-    </section>
-  )
-}
-
-function Pairs({ title, pairs }: { title: string; pairs: [string, string][] }): ReactNode {
-  return (
-    <p className="choices">
-      {title}: <code>{pairs.map(([location, value]) => `${location} = ${value}`).join(', ')}</code>
-    </p>
   )
 }

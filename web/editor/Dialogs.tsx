@@ -7,6 +7,7 @@ import { status } from '../diagram/sync'
 import { words } from '../words'
 import { DeleteFile, RenameFile } from './FileDialogs'
 import { Buttons, Frame } from './Frame'
+import { MachineDialog } from './MachineDialogs'
 import { NAME, NewProject } from './NewProject'
 import { Icon } from './icons'
 import { type OfChart, buildFirst, lastName } from './ofChart'
@@ -29,6 +30,9 @@ export function Dialogs({ studio, commands }: { studio: Studio; commands: Comman
       return <NewProject studio={studio} close={close} />
     case 'machine':
       return <NewMachine studio={studio} uri={dialog.uri} close={close} />
+    case 'renameMachine':
+    case 'deleteMachine':
+      return <MachineDialog studio={studio} uri={dialog.uri} name={dialog.name} deletes={dialog.kind === 'deleteMachine'} close={close} />
     case 'rename':
       return <Rename studio={studio} dialog={dialog} close={close} />
     case 'renameFile':

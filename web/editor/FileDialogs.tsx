@@ -31,7 +31,7 @@ function useNames(studio: Studio, files: readonly File[]): Names[] | null {
 }
 
 // Places by file, without those in the files themselves.
-function Places({ title, places }: { title: string; places: readonly Named[] }): ReactNode {
+export function Places({ title, places }: { title: string; places: readonly Pick<Named, 'path' | 'range'>[] }): ReactNode {
   if (places.length === 0) return null
   return (
     <section className="named">

@@ -7,6 +7,7 @@
 import type { Arrow, Drawing, Edited, Operation, Pictures, Position } from '../diagram/protocol'
 import { NOTHING, type Selection, drawingAt, pickAt, rangesOf } from '../diagram/pick'
 import { kept } from '../diagram/gestures'
+import { stays } from '../diagram/machines'
 import { changesOf, difference, rebased } from '../diagram/text'
 import type { Doc } from './document'
 import { Store } from './store'
@@ -69,7 +70,9 @@ export class Chart {
       const params = { textDocument: { uri: this.doc.file.uri } }
       const pictures = await this.studio.ask<Pictures>('groundstate/chart/picture', params)
       const known = this.store.get().pictures
-      if (pictures.drawings.length === 0 && known && known.drawings.length > 0 && this.doc.text.trim() !== '') this.store.set({ stale: true })
+      // Without a drawing there is no machine, or none that could be read.
+      const isBroken = pictures.guess === true || pictures.problems.length > 0
+      if (isBroken && pictures.drawings.length === 0 && known && known.drawings.length > 0 && this.doc.text.trim() !== '') this.store.set({ stale: true })
       else this.show(pictures)
     } catch {
       if (this.studio.server.online === 'open') this.store.set({ stale: true })
@@ -84,7 +87,9 @@ export class Chart {
 
   private show(pictures: Pictures): void {
     const { shown, selection } = this.store.get()
-    const drawing = pictures.drawings.find((drawing) => drawing.name === shown) ?? pictures.drawings[0]
+    const names = (drawings: readonly Drawing[]): string[] => drawings.map((drawing) => drawing.name)
+    const front = stays(names(this.store.get().pictures?.drawings ?? []), shown, names(pictures.drawings))
+    const drawing = pictures.drawings.find((drawing) => drawing.name === front)
     const there = (id: string): boolean => drawing?.picture.boxes.some((box) => box.id === id) ?? false
     const made = this.wanted.length > 0 && this.wanted.every(there) ? this.wanted : null
     if (made) this.wanted = []

@@ -2,10 +2,10 @@
 
 import { useMemo } from 'react'
 
-import { controlOf, frames, lit, stateOf } from '../diagram/light'
+import { type Frame, controlOf, frames, lit, stateOf } from '../diagram/light'
 import { listing } from '../diagram/stategraph'
 import type { Drawing, Followed } from '../diagram/protocol'
-import { type JobsState, verdicts } from './jobs'
+import { type Job, type JobsState, type Verdict, verdicts } from './jobs'
 import type { Coverage } from './marks'
 import { statesOf } from './ProgramResult'
 import { guardTerms } from './run'
@@ -35,17 +35,27 @@ export function breakTerm(drawing: Drawing, id: string): string | null {
   return value === undefined ? null : `${control} = ${value}`
 }
 
-export function useFrame(studio: Studio) {
+// The counterexample that is played: its run, and the state of it that is shown.
+export interface Played {
+  frame: Frame
+  all: readonly Frame[]
+  verdict: Verdict
+  job: Job
+  playing: NonNullable<JobsState['playing']>
+}
+
+export function useFrame(studio: Studio): Played | null {
   const playing = useStore(studio.jobs.store, (state) => state.playing)
   const jobs = useStore(studio.jobs.store, (state) => state.jobs)
+  const job = playing ? jobs.find((job) => job.id === playing.job) : undefined
+  const verdict = job && verdicts(job).find((verdict) => verdict.check === playing?.check)
+  // The states are made once for a run, not for each step of it.
+  const trace = verdict?.trace
+  const all = useMemo(() => frames(trace ?? []), [trace])
   return useMemo(() => {
-    if (!playing) return null
-    const job = jobs.find((job) => job.id === playing.job)
-    const verdict = job && verdicts(job).find((verdict) => verdict.check === playing.check)
-    const all = frames(verdict?.trace ?? [])
-    const frame = all[Math.min(playing.at, all.length - 1)]
-    return frame && verdict ? { frame, count: all.length, end: all.at(-1)?.step ?? 0, verdict, playing } : null
-  }, [jobs, playing])
+    const frame = playing ? all[Math.min(playing.at, all.length - 1)] : undefined
+    return frame && verdict && job && playing ? { frame, all, verdict, job, playing } : null
+  }, [all, verdict, job, playing])
 }
 
 // The state of a state graph that is picked, as long as its panel is open.

@@ -33,6 +33,7 @@ export type Dialog =
   | { kind: 'keys' }
   | { kind: 'rename'; old: string; uri: string; at: { line: number; character: number } }
   | { kind: 'machine'; uri: string }
+  | { kind: 'renameMachine' | 'deleteMachine'; uri: string; name: string }
   | { kind: 'renameFile' | 'deleteFile'; file: File }
   // A text that is in no file is to be closed.
   | { kind: 'closing'; uri: string }

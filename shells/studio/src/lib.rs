@@ -23,6 +23,7 @@ mod home;
 mod inputs;
 mod job;
 mod line;
+mod machines;
 mod model;
 mod names;
 mod program;

@@ -121,7 +121,7 @@ fn own_name(file: &str, text: &str, path: &str, stem: &str) -> Option<Range<usiz
 }
 
 /// Where a path leads from a file.
-fn beside(file: &str, path: &str) -> String {
+pub fn beside(file: &str, path: &str) -> String {
     tidy(&Path::new(file).parent().unwrap_or(Path::new("")).join(path).to_string_lossy())
 }
 

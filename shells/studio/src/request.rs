@@ -16,7 +16,7 @@ use crate::home::Home;
 use crate::program::{self, Plan};
 use crate::studio::Studio;
 use crate::tell::Out;
-use crate::{generated, inputs, job, model, names, sources};
+use crate::{generated, inputs, job, machines, model, names, sources};
 
 /// The version of these requests. A change that would mislead a front end raises it.
 const VERSION: u32 = 1;
@@ -80,6 +80,7 @@ pub fn answer(
             Ok(wrote.json())
         }
         "studio/names" => names::of(&studio.folder, text("path")?, &paths(&studio.folder)),
+        "studio/machine" => machines::of(&studio.folder, text("path")?, text("name")?, &paths(&studio.folder)),
         "studio/rename" => {
             writable(studio)?;
             rename(studio, tab, &params["files"])
