@@ -3,8 +3,10 @@
 #![allow(clippy::disallowed_methods, reason = "a test reads the repository's own models")]
 
 use std::sync::Arc;
+use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
+use std::time::Duration;
 
-use machine::{Bounds, Limits, Value};
+use machine::{Bounds, Cause, Interrupt, Limits, Value};
 use model::Basic;
 use program::{DomainKind, FunctionId, FunctionKind, Program};
 use syntax::{Severity, SourceFile};
@@ -26,6 +28,20 @@ fn model(text: &str) -> Arc<Program> {
 fn by(engine: EngineKind, program: &Arc<Program>) -> Report {
     let options = Options { engine, ..Options::default() };
     verify(program, &options, &mut |_| true).expect("there is an initial state")
+}
+
+/// A request to stop that comes after some seconds, unless the sender is dropped before: a single state may have more alternatives
+/// than anybody goes through.
+fn patience() -> (Interrupt, Sender<()>) {
+    let interrupt = Interrupt::new();
+    let (sender, done) = channel();
+    let late = interrupt.clone();
+    std::thread::spawn(move || {
+        if done.recv_timeout(Duration::from_secs(10)) == Err(RecvTimeoutError::Timeout) {
+            late.raise(Cause::Asked);
+        }
+    });
+    (interrupt, sender)
 }
 
 /// Each verdict, with the length of its run.
@@ -159,7 +175,8 @@ fn random_models() {
         let Ok(program) = program::lower(&checked.model) else { continue };
         let program = Arc::new(program);
         let limits = Limits { iterations: 200, call_depth: 50, collection: 2000, ..Limits::default() };
-        let options = Options { limits, bounds: bounds(&program), max_bytes: 4 << 20, ..Options::default() };
+        let (interrupt, _waiting) = patience();
+        let options = Options { limits, bounds: bounds(&program), max_bytes: 4 << 20, interrupt, ..Options::default() };
         let few = Options { engine: EngineKind::Explicit, max_states: STATES, ..options.clone() };
         let Ok(explicit) = verify(&program, &few, &mut |progress| progress.transitions < 20_000) else { continue };
         if explicit.stop.is_some() {

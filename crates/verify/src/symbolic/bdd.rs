@@ -12,6 +12,8 @@ use oxidd::util::{OutOfMemory, SatCountCache};
 use oxidd::{BooleanFunction, BooleanFunctionQuant, Manager, ManagerRef};
 use rustc_hash::{FxHashMap, FxHasher};
 
+use crate::symbolic::large::Large;
+
 /// A set of states.
 pub(crate) type Set = BCDDFunction;
 
@@ -41,7 +43,7 @@ pub(crate) struct Diagrams {
     writes: FxHashMap<Vec<Overwrite>, (Set, Set)>,
     empty: Set,
     all: Set,
-    counts: SatCountCache<oxidd::util::num::F64, BuildHasherDefault<FxHasher>>,
+    counts: SatCountCache<Large, BuildHasherDefault<FxHasher>>,
 }
 
 impl Diagrams {
@@ -128,7 +130,7 @@ impl Diagrams {
 
     /// The number of states in a set; exact below 2⁵³.
     pub fn count(&mut self, set: &Set) -> f64 {
-        set.sat_count(self.places.len() as u32, &mut self.counts).0
+        set.sat_count(self.places.len() as u32, &mut self.counts).value()
     }
 
     /// The number of nodes.

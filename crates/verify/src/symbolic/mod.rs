@@ -5,5 +5,6 @@
 
 pub(crate) mod apart;
 mod bdd;
+mod large;
 mod order;
 mod reach;
