@@ -9,6 +9,7 @@ export const REFINED = {
     `${pairs === 1 ? '1 pair of states' : `${pairs.toLocaleString('en')} pairs of states`}${open > 0 ? `, ${open.toLocaleString('en')} not looked at` : ''}`,
   places: (places: number) => (places === 1 ? 'in 1 place' : `in ${places.toLocaleString('en')} places`),
   observed: 'Observed',
+  leftOut: 'Left out',
   diagrams: 'Diagrams',
   assumed: 'Assumed',
   waiting: 'the concrete machine does not go on for ever while the abstract one makes no step',

@@ -25,6 +25,7 @@ interface Refinement {
   verdict: 'refines' | 'does-not-refine' | 'unknown' | 'vacuous'
   reasons?: string[]
   coupling: string[]
+  left_out?: string[]
   diagrams?: { abstract: number; concrete: number; places?: number }[]
   assumed?: { model: string; name: string; from?: string }[]
   waiting_allowed?: boolean
@@ -67,6 +68,7 @@ export function Refined({ found }: { found: Refinement }): ReactNode {
         <span className="faint">{refined.pairs(found.pairs, found.open_pairs)}</span>
       </p>
       {found.verdict !== 'does-not-refine' && <Told title={refined.observed} lines={found.coupling} />}
+      {(found.left_out ?? []).length > 0 && found.verdict !== 'does-not-refine' && <Told title={refined.leftOut} lines={found.left_out ?? []} />}
       {diagrams.length > 0 && <Told title={refined.diagrams} lines={[diagrams.join(', ')]} />}
       {assumed.length > 0 && <Told title={refined.assumed} lines={assumed} />}
       {(found.properties ?? []).length > 0 && (

@@ -15,7 +15,7 @@ use program::{DomainId, DomainKind, Expression, FunctionId, FunctionKind, Progra
 use syntax::ast::{AstNode, TermFile};
 use syntax::{Diagnostic, FileId, Severity, SourceFile, Sources, Span};
 
-use crate::coupling::{Conjunct, Coupling, Faulty, start};
+use crate::coupling::{Conjunct, Coupling, Faulty, Incomparable, LeftOut, start};
 use crate::diagram::Diagrams;
 use crate::fault::{bad_coupling, vacuous};
 use crate::joint::{Joint, described, growing, join, joint_name};
@@ -86,6 +86,7 @@ impl Builder {
             fair: Vec::new(),
             variant: None,
             same: Vec::new(),
+            left_out: Vec::new(),
             free: Vec::new(),
             inputs: Vec::new(),
             file,
@@ -157,16 +158,24 @@ impl Builder {
         for (here, function) in (0..).map(FunctionId).zip(&one.functions).filter(|(_, function)| is_state(function)) {
             let there = match self.counterpart(here, is_state) {
                 Ok(Some(there)) => there,
-                Ok(None) => continue,
+                Ok(None) => {
+                    let why = self.incomparable(here);
+                    self.coupling.left_out.extend(why.map(|why| LeftOut { name: function.name.clone(), why }));
+                    continue;
+                }
                 Err(fault) => {
                     self.fault(fault);
                     continue;
                 }
             };
-            let grows =
-                [(ABSTRACT, here), (CONCRETE, there)].into_iter().any(|(side, f)| self.grows(side, f, false).is_some());
-            if !grows {
-                pairs.insert((function.name.clone(), [here, there]));
+            let made =
+                [(ABSTRACT, here), (CONCRETE, there)].into_iter().find_map(|(side, f)| self.grows(side, f, false));
+            match made {
+                Some(domain) => {
+                    let why = Incomparable::Made(domain);
+                    self.coupling.left_out.push(LeftOut { name: function.name.clone(), why });
+                }
+                None => _ = pairs.insert((function.name.clone(), [here, there])),
             }
         }
         for (name, functions) in pairs {

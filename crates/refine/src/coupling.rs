@@ -58,6 +58,26 @@ pub(crate) fn is_fair(input: u32) -> bool {
     input >= FAIR
 }
 
+/// A function of both machines that is not compared where the coupling says nothing.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct LeftOut {
+    /// Its name.
+    pub name: String,
+    /// Why.
+    pub why: Incomparable,
+}
+
+/// Why functions of one name are not compared by default.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Incomparable {
+    /// The abstract and the concrete one have so many arguments.
+    Arguments([usize; 2]),
+    /// A domain of the abstract one, and what the concrete one has there.
+    Domains([String; 2]),
+    /// Arguments are in this domain, of which a machine makes elements.
+    Made(String),
+}
+
 /// Why a text is no coupling of two machines.
 #[derive(Debug)]
 pub struct Faulty {
@@ -93,6 +113,8 @@ pub struct Coupling {
     pub(crate) variant: Option<(String, Expression)>,
     /// The functions that have equal values by default or by `same`.
     pub same: Vec<String>,
+    /// The functions of both machines that are not compared by default.
+    pub left_out: Vec<LeftOut>,
     /// Inputs that are free, and inputs that have the same value in both.
     pub free: Vec<String>,
     /// The inputs that have the same value in both machines.

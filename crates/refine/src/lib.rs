@@ -40,7 +40,7 @@ mod why;
 mod written;
 
 pub use bmc::refute;
-pub use coupling::{Coupling, Faulty};
+pub use coupling::{Coupling, Faulty, Incomparable, LeftOut};
 pub use diagram::{Diagram, Diagrams, MOST};
 pub use evidence::{Ended, Refutation, Run, Segment, Tried};
 pub use explore::checkpoint::{Keeper, Refusal};

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use program::Program;
-use refine::{Coupling, Verdict};
+use refine::{Coupling, Incomparable, LeftOut, Verdict};
 use syntax::SourceFile;
 
 use crate::small::{machine, report};
@@ -55,6 +55,8 @@ fn functions_of_such_elements_are_not_said_to_be_compared() {
     let coupling = Coupling::new([&one, &other], None, &machine::Limits::default())
         .unwrap_or_else(|faulty| panic!("{:?}", faulty.faults));
     assert_eq!(coupling.same, ["k"]);
+    let left_out = [LeftOut { name: "held".to_string(), why: Incomparable::Made("Item".to_string()) }];
+    assert_eq!(coupling.left_out, left_out);
 }
 
 #[test]

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use program::Program;
-use refine::{Coupling, Verdict};
+use refine::{Coupling, Incomparable, Verdict};
 use syntax::SourceFile;
 use testkit::Texts;
 
@@ -48,6 +48,35 @@ fn each_overload_corresponds_to_that_with_its_domains() {
             assert!(!matches!(report.verdict, Verdict::Refines), "{:?}", report.verdict);
         }
     }
+}
+
+/// The names and reasons of what a default coupling leaves out.
+fn left_out(one: &Arc<Program>, other: &Arc<Program>) -> Vec<(String, Incomparable)> {
+    let coupling = Coupling::new([one, other], None, &machine::Limits::default());
+    let coupling = coupling.unwrap_or_else(|faulty| panic!("{:?}", faulty.faults));
+    coupling.left_out.into_iter().map(|left| (left.name, left.why)).collect()
+}
+
+#[test]
+fn a_function_whose_domains_differ_is_left_out_by_name() {
+    let with = |declared: &str| {
+        let signature = format!("{LOADS} controlled n: Boolean {declared}");
+        machine(&signature, "main rule r_Main = n := not n", "function n = false")
+    };
+    let plain = with("controlled load: Side -> Boolean");
+    let check = |declared: &str, why: Option<Incomparable>| {
+        let found = left_out(&plain, &with(declared));
+        assert_eq!(found, why.map(|why| ("load".to_string(), why)).into_iter().collect::<Vec<_>>(), "{declared}");
+    };
+    check("controlled load: Side -> Boolean", None);
+    check("", None);
+    check("monitored load: Slot -> Boolean", None);
+    // The overload besides is one of the concrete machine alone.
+    check("controlled load: Side -> Boolean controlled load: Slot -> Boolean", None);
+    let sides = ["Side {LEFT | RIGHT}", "Slot {DOWN | UP}"].map(str::to_string);
+    check("controlled load: Slot -> Boolean", Some(Incomparable::Domains(sides)));
+    check("controlled load: Boolean", Some(Incomparable::Arguments([1, 0])));
+    check("controlled load: Prod(Side, Slot) -> Boolean", Some(Incomparable::Arguments([1, 2])));
 }
 
 #[test]

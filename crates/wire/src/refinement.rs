@@ -25,6 +25,9 @@ pub struct Refinement {
     reasons: Vec<String>,
     /// The parts of the coupling relation.
     coupling: Vec<String>,
+    /// The functions of both machines that are not compared by default, and why.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    left_out: Vec<String>,
     /// Whether it is assumed that the concrete machine does not go on for ever without a step of the abstract one.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     waiting_allowed: bool,
@@ -221,6 +224,7 @@ impl Refinement {
             verdict,
             reasons,
             coupling: (0..words.coupling.conjuncts()).map(|index| words.coupling.conjunct(index)).collect(),
+            left_out: words.left_out().collect(),
             waiting_allowed: words.coupling.waiting,
             overflow_allowed: words.coupling.overflow,
             diagrams: report.diagrams.iter().map(diagram).collect(),

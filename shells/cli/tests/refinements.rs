@@ -196,3 +196,32 @@ fn what_no_scenario_can_say_is_told() {
     // It is a scenario all the same.
     assert!(!run(&["check", "found/inv_small.avalla"], 0).contains("error"));
 }
+
+/// A function that keeps its name and gets another domain is not compared: a reader of *refines* is told.
+#[test]
+fn what_has_a_name_in_common_alone_is_told_as_left_out() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let model = |name: &str, domain: &str| {
+        let text = format!(
+            "asm {name}\nimport StandardLibrary\nsignature:\ncontrolled on: Boolean\ncontrolled level: {domain}\ndefinitions:\n\
+             main rule r_Main = on := not on\ndefault init s0:\nfunction on = false\n"
+        );
+        std::fs::write(folder.path().join(format!("{name}.asm")), text).expect("it is written");
+    };
+    model("One", "Integer");
+    model("Two", "Boolean");
+    let refine = |arguments: &[&str]| -> String {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_groundstate"));
+        let run = command.arg("refine").args(arguments).current_dir(folder.path()).output().expect("it starts");
+        assert_eq!(run.status.code(), Some(0), "{}", String::from_utf8_lossy(&run.stderr));
+        String::from_utf8_lossy(&run.stdout).into_owned()
+    };
+    let said = refine(&["One.asm", "Two.asm", "--page", "page.html"]);
+    let told = "level: Integer in the abstract machine, Boolean in the concrete one";
+    assert!(said.contains(&format!("  observed   abstract.on = concrete.on\n  left out   {told}\n")), "{said}");
+    let page = std::fs::read_to_string(folder.path().join("page.html")).expect("the page");
+    assert!(page.contains(told), "{page}");
+    let said = refine(&["One.asm", "Two.asm", "--format", "json"]);
+    assert!(said.contains(&format!("\"left_out\":[\"{told}\"]")), "{said}");
+    assert!(!refine(&["One.asm", "One.asm"]).contains("left out"));
+}

@@ -6,8 +6,8 @@ use std::collections::BTreeMap;
 
 use explore::Told;
 use refine::{
-    ABSTRACT, Assumed, CONCRETE, Coupling, Ended, From, MOST, Preserved, Refutation, Report, Run, SIDES, Trouble,
-    Vacuous, Verdict, Why,
+    ABSTRACT, Assumed, CONCRETE, Coupling, Ended, From, Incomparable, LeftOut, MOST, Preserved, Refutation, Report,
+    Run, SIDES, Trouble, Vacuous, Verdict, Why,
 };
 use syntax::Diagnostic;
 use verify::{Outcome, Trace};
@@ -269,8 +269,28 @@ impl Refinements<'_> {
         if told < count {
             parts.push(format!("… and {} more; --all lists them", count - told));
         }
-        let word = |index: usize| if index == 0 { "observed" } else { "" };
-        parts.iter().enumerate().map(|(index, part)| format!("  {:9}  {part}", word(index))).collect()
+        let left_out = self.left_out().flat_map(|part| broken_into(&part, LINE)).collect();
+        let titled = |title: &'static str, parts: Vec<String>| {
+            let word = move |index: usize| if index == 0 { title } else { "" };
+            parts.into_iter().enumerate().map(move |(index, part)| format!("  {:9}  {part}", word(index)))
+        };
+        titled("observed", parts).chain(titled("left out", left_out)).collect()
+    }
+
+    /// The functions of both machines that are not compared by default, and why.
+    pub fn left_out(&self) -> impl Iterator<Item = String> {
+        let [one, other] = SIDES;
+        self.coupling.left_out.iter().map(move |LeftOut { name, why }| match why {
+            Incomparable::Arguments([here, there]) => {
+                format!("{name}: {} in the {one} machine, {there} in the {other} one", plural(*here, "argument"))
+            }
+            Incomparable::Domains([here, there]) => {
+                format!("{name}: {here} in the {one} machine, {there} in the {other} one")
+            }
+            Incomparable::Made(domain) => {
+                format!("{name}: it has arguments in {domain}, of which a machine makes elements")
+            }
+        })
     }
 
     /// What is known of a property of the abstract machine in the concrete one.

@@ -6,12 +6,32 @@
 use program::FunctionId;
 use syntax::Diagnostic;
 
-use crate::build::Builder;
-use crate::coupling::start;
+use crate::build::{Builder, is_state};
+use crate::coupling::{Incomparable, start};
 use crate::fault::bad_coupling;
 use crate::{ABSTRACT, CONCRETE, SIDES};
 
 impl Builder {
+    /// Why no function of the concrete machine is one of the abstract machine that is part of its state; none if no other one has its name.
+    pub(super) fn incomparable(&self, here: FunctionId) -> Option<Incomparable> {
+        let named = |side: usize| {
+            let all = (0..).map(FunctionId).zip(&self.coupling.programs[side].functions);
+            let name = &self.coupling.programs[ABSTRACT].function(here).name;
+            all.filter(move |(_, one)| one.name == *name && is_state(one)).map(|(id, _)| id)
+        };
+        let has_counterpart = |there: &FunctionId| {
+            named(ABSTRACT).any(|one| self.domains(ABSTRACT, one) == self.domains(CONCRETE, *there))
+        };
+        let arity = |side: usize, id| self.coupling.programs[side].function(id).parameters.len();
+        let there = named(CONCRETE).filter(|there| !has_counterpart(there));
+        let there = there.min_by_key(|there| arity(CONCRETE, *there).abs_diff(arity(ABSTRACT, here)))?;
+        let arities = [arity(ABSTRACT, here), arity(CONCRETE, there)];
+        match arities[ABSTRACT] == arities[CONCRETE] {
+            true => self.other_domain(here, there).map(Incomparable::Domains),
+            false => Some(Incomparable::Arguments(arities)),
+        }
+    }
+
     /// The function of the concrete machine that has the name and the domains of one of the abstract machine, if there is one of that kind.
     ///
     /// # Errors
