@@ -8,7 +8,7 @@ use machine::Limits;
 use model::Loader;
 use program::Program;
 use refine::{Coupling, SIDES, bad_coupling, read};
-use syntax::{FileId, SourceFile, Sources};
+use syntax::{Diagnostic, FileId, SourceFile, Sources};
 
 use crate::load;
 use crate::workspace::Findings;
@@ -32,29 +32,29 @@ fn sources_of(root: &SourceFile) -> Sources {
 }
 
 fn written_well(root: &SourceFile, loader: &mut dyn Loader) -> Findings {
-    let written = match read(FileId(0), &root.text) {
-        Ok(written) => written,
-        Err(fault) => return Findings { faults: vec![(sources_of(root), vec![*fault])], open: None },
-    };
+    coupling_of(root, loader).err().map_or_else(Findings::default, |found| *found)
+}
+
+/// The coupling of the two models that a file names.
+///
+/// # Errors
+/// What is wrong with it, or why it was not checked.
+pub fn coupling_of(root: &SourceFile, loader: &mut dyn Loader) -> Result<Coupling, Box<Findings>> {
+    let faulty =
+        |fault: Box<Diagnostic>| Box::new(Findings { faults: vec![(sources_of(root), vec![*fault])], open: None });
+    let written = read(FileId(0), &root.text).map_err(faulty)?;
     let mut programs: Vec<Arc<Program>> = Vec::new();
     for (side, named) in written.models.iter().enumerate() {
         let Some(named) = named else {
-            return Findings::not_checked(format!("it does not name the {} model", SIDES[side]));
+            return Err(Box::new(Findings::not_checked(format!("it does not name the {} model", SIDES[side]))));
         };
-        let source = match loader.load(root, &named.text) {
-            Ok(source) => source,
-            Err(reason) => {
-                let fault = bad_coupling(named.span, reason.to_string());
-                return Findings { faults: vec![(sources_of(root), vec![*fault])], open: None };
-            }
-        };
+        let source = loader.load(root, &named.text);
+        let source = source.map_err(|reason| faulty(bad_coupling(named.span, reason.to_string())))?;
         match load(source, loader) {
             Ok(loaded) => programs.push(loaded.program),
-            Err(_) => return Findings::not_checked(format!("{} has faults", named.text)),
+            Err(_) => return Err(Box::new(Findings::not_checked(format!("{} has faults", named.text)))),
         }
     }
-    match Coupling::new([&programs[0], &programs[1]], Some(root.clone()), &Limits::default()) {
-        Ok(_) => Findings { faults: Vec::new(), open: None },
-        Err(faulty) => Findings { faults: vec![(faulty.sources, faulty.faults)], open: None },
-    }
+    let coupling = Coupling::new([&programs[0], &programs[1]], Some(root.clone()), &Limits::default());
+    coupling.map_err(|faulty| Box::new(Findings { faults: vec![(faulty.sources, faulty.faults)], open: None }))
 }

@@ -46,7 +46,7 @@ pub use asked_of_system::{check_asked_of_system, draws_system, libraries_of, ref
 pub use assumptions::{Assumptions, OPTION as ASSUME, assume, terms_of};
 pub use avalla::leaves_out;
 pub use build::{BuiltChart, Located, build_chart};
-pub use check_coupling::check_coupling;
+pub use check_coupling::{check_coupling, coupling_of};
 pub use check_specification::check_specification;
 pub use check_verification::check_verification;
 pub use counterexample::{counterexample_run, counterexample_scenario};

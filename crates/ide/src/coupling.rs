@@ -9,7 +9,7 @@ use groundstate::refine::{ABSTRACT, CONCRETE, SIDES};
 use groundstate::workspace::Files;
 use model::{DomainKind, Referent};
 
-use crate::analysis::Analysis;
+use crate::analysis::{Analysis, Symbol};
 use crate::project::Project;
 
 /// A place in a coupling.
@@ -26,35 +26,79 @@ pub(crate) fn is_word(letter: char) -> bool {
     letter.is_alphanumeric() || letter == '_'
 }
 
+/// A walk through a text that knows where statements, strings and comments begin.
+struct Walk<'t> {
+    text: &'t str,
+    at: usize,
+    /// Where the statement begins.
+    start: usize,
+    quoted: bool,
+}
+
+impl<'t> Walk<'t> {
+    fn new(text: &'t str) -> Walk<'t> {
+        Walk { text, at: 0, start: 0, quoted: false }
+    }
+
+    /// Goes past a character or a comment; none where the comment has no end.
+    fn go(&mut self) -> Option<()> {
+        let rest = &self.text[self.at..];
+        let next = rest.chars().next()?;
+        let blank = |walk: &Walk<'t>| walk.text[walk.start..walk.at].trim().is_empty();
+        if self.quoted {
+            self.quoted = next != '"';
+        } else if rest.starts_with("//") {
+            let begins = blank(self);
+            self.at += rest.find('\n')?;
+            self.start = if begins { self.at } else { self.start };
+            return Some(());
+        } else if rest.starts_with("/*") {
+            let begins = blank(self);
+            self.at += rest.find("*/")? + 2;
+            self.start = if begins { self.at } else { self.start };
+            return Some(());
+        } else {
+            self.quoted = next == '"';
+            self.start = if next == ';' { self.at + 1 } else { self.start };
+        }
+        self.at += next.len_utf8();
+        Some(())
+    }
+}
+
 /// The place at an offset; none in a comment.
 pub(crate) fn place(text: &str, offset: u32) -> Option<Place<'_>> {
     let before = text.get(..offset as usize)?;
-    let (mut start, mut at, mut quoted) = (0, 0, false);
-    while at < before.len() {
-        let rest = &before[at..];
-        let next = rest.chars().next()?;
-        if quoted {
-            quoted = next != '"';
-        } else if rest.starts_with("//") {
-            at += rest.find('\n')?;
-            start = if before[start..at].trim_start().starts_with("//") { at } else { start };
-            continue;
-        } else if rest.starts_with("/*") {
-            let end = rest.find("*/")? + 2;
-            start = if before[start..at].trim().is_empty() { at + end } else { start };
-            at += end;
-            continue;
-        } else {
-            quoted = next == '"';
-            start = if next == ';' { at + 1 } else { start };
-        }
-        at += next.len_utf8();
+    let mut walk = Walk::new(before);
+    while walk.at < before.len() {
+        walk.go()?;
     }
+    let Walk { start, quoted, .. } = walk;
     let behind = text[offset as usize..].find(|c: char| !is_word(c)).unwrap_or(text.len() - offset as usize);
     let word = before.len() - before.trim_end_matches(is_word).len();
     let quote = before.rfind('"').map_or(before.len(), |quote| quote + 1);
     let from = if quoted { quote } else { before.len() - word };
     Some(Place { statement: before[start..].trim_start(), range: (from as u32, offset + behind as u32), quoted })
+}
+
+/// The places of a word, but for the first words of statements, with what of the statement stands before them.
+fn places_of<'t>(text: &'t str, word: &str) -> Vec<(&'t str, u32)> {
+    let mut walk = Walk::new(text);
+    let mut found = Vec::new();
+    for (at, _) in text.match_indices(word) {
+        while walk.at < at {
+            if walk.go().is_none() {
+                return found;
+            }
+        }
+        let whole = !text[..at].ends_with(|c| is_word(c) || c == '$') && !text[at + word.len()..].starts_with(is_word);
+        // Beyond the place, the walk has gone past a comment.
+        if walk.at == at && whole && !walk.quoted {
+            let before = text[walk.start..at].trim_start();
+            found.extend((!before.is_empty()).then_some((before, at as u32)));
+        }
+    }
+    found
 }
 
 /// The machine whose name and dot a text ends with.
@@ -95,7 +139,18 @@ pub(crate) fn paths(text: &str) -> Vec<(usize, (u32, u32), String)> {
 /// A name, and what it means: the models that know it.
 pub(crate) struct Named {
     pub range: (u32, u32),
+    /// Several where it means something of both machines, or overloads; none where it is not known.
     pub meant: Vec<(Arc<Analysis>, Referent)>,
+}
+
+impl Named {
+    /// What it means, each once.
+    pub fn symbols(&self) -> Vec<Symbol> {
+        let mut symbols: Vec<Symbol> = self.meant.iter().map(|(model, referent)| model.symbol(*referent)).collect();
+        symbols.sort();
+        symbols.dedup();
+        symbols
+    }
 }
 
 /// What is named at an offset.
@@ -108,21 +163,47 @@ pub(crate) fn named<F: Files>(project: &mut Project<F>, own: &Analysis, offset: 
     if before.trim().is_empty() {
         return None;
     }
+    let meant = meant(&models(project, own), before, word);
+    (!meant.is_empty()).then_some(Named { range: place.range, meant })
+}
+
+/// Each place of a word that may be a name.
+pub(crate) fn all_named<F: Files>(project: &mut Project<F>, own: &Analysis, word: &str) -> Vec<Named> {
+    let places = places_of(own.text(), word);
+    if places.is_empty() {
+        return Vec::new();
+    }
     let models = models(project, own);
-    let of = |sides: &[usize], library: bool| -> Vec<(Arc<Analysis>, Referent)> {
+    let named =
+        |(before, at): (&str, u32)| Named { range: (at, at + word.len() as u32), meant: meant(&models, before, word) };
+    places.into_iter().map(named).collect()
+}
+
+/// What a word means behind the part of a statement that stands before it.
+fn meant(models: &[Option<Arc<Analysis>>; 2], before: &str, word: &str) -> Vec<(Arc<Analysis>, Referent)> {
+    let of = |sides: &[usize], in_common: bool| -> Vec<(Arc<Analysis>, Referent)> {
         let known = sides.iter().filter_map(|side| models[*side].clone());
-        known.flat_map(|model| meanings(&model, word, library)).collect()
+        known.flat_map(|model| meanings(&model, word, in_common)).collect()
     };
-    let meant = match (side_before(before), before.split_whitespace().next()) {
+    match (side_before(before), before.split_whitespace().next()) {
         (Some(side), _) => of(&[side], false),
         (None, Some("same")) => of(&[ABSTRACT, CONCRETE], false),
         // A literal, a domain or a function of a library is alike in both, or belongs to one.
-        (None, _) => {
-            let concrete = of(&[CONCRETE], true);
-            if concrete.is_empty() { of(&[ABSTRACT], true) } else { concrete }
+        (None, _) => of(&[CONCRETE, ABSTRACT], true),
+    }
+}
+
+/// The literals that a word is in a model.
+pub(crate) fn literals(model: &Analysis, word: &str) -> Vec<Referent> {
+    let named = model.model.names.all_literals().filter(|(name, _)| *name == word);
+    let literals = named.filter_map(|(name, domain)| match model.model.domains.kind(domain) {
+        DomainKind::Enum { literals } => {
+            let place = literals.iter().position(|literal| literal == name)?;
+            Some(Referent::Literal(domain, place as u32))
         }
-    };
-    (!meant.is_empty()).then_some(Named { range: place.range, meant })
+        _ => None,
+    });
+    literals.collect()
 }
 
 /// What a word means in a model: a function of it, or what both models may have in common.
@@ -133,14 +214,7 @@ fn meanings(model: &Arc<Analysis>, word: &str, in_common: bool) -> Vec<(Arc<Anal
     let mut found: Vec<Referent> = functions.map(|(_, id)| Referent::Function(id)).collect();
     if in_common {
         found.extend(names.all_domains().filter(|(name, _)| *name == word).map(|(_, id)| Referent::Domain(id)));
-        let literals = names.all_literals().filter(|(name, _)| *name == word);
-        found.extend(literals.filter_map(|(name, domain)| match model.model.domains.kind(domain) {
-            DomainKind::Enum { literals } => {
-                let place = literals.iter().position(|literal| literal == name)?;
-                Some(Referent::Literal(domain, place as u32))
-            }
-            _ => None,
-        }));
+        found.extend(literals(model, word));
     }
     found.into_iter().map(|referent| (Arc::clone(model), referent)).collect()
 }

@@ -74,17 +74,39 @@ pub fn implementations<F: Files>(project: &mut Project<F>, path: &str, offset: u
 
 /// All places that name what is named at an offset, in order.
 pub fn references<F: Files>(project: &mut Project<F>, path: &str, offset: u32) -> Vec<Reference> {
-    let Ok(analysis) = project.analysis(path) else { return Vec::new() };
-    let Some(first) = analysis.names_at(offset).first().copied() else { return Vec::new() };
-    let written = analysis.text()[first.span.range()].to_string();
-    let symbols = symbols(&analysis, analysis.names_at(offset));
+    let Some(Asked { meant, symbols, written }) = asked(project, path, offset) else { return Vec::new() };
+    let mut files: Vec<String> =
+        meant.iter().flat_map(|(analysis, referent)| places_to_look(project, analysis, *referent)).collect();
+    files.sort();
+    files.dedup();
     let mut found = Vec::new();
-    for file in places_to_look(project, &analysis, first.referent) {
+    for file in files {
         found.extend(references_in(project, &file, &symbols, &written));
     }
     found.sort();
     found.dedup();
     found
+}
+
+/// A name that is asked about: what it means, by whom it is known, and how it is written.
+struct Asked {
+    meant: Vec<(Arc<Analysis>, Referent)>,
+    symbols: Vec<Symbol>,
+    written: String,
+}
+
+fn asked<F: Files>(project: &mut Project<F>, path: &str, offset: u32) -> Option<Asked> {
+    let analysis = project.analysis(path).ok()?;
+    if Kind::of(Path::new(path)) == Some(Kind::Coupling) {
+        let named = coupling::named(project, &analysis, offset)?;
+        let written = analysis.text()[named.range.0 as usize..named.range.1 as usize].to_string();
+        return Some(Asked { symbols: named.symbols(), meant: named.meant, written });
+    }
+    let names = analysis.names_at(offset);
+    let first = names.first()?;
+    let written = analysis.text()[first.span.range()].to_string();
+    let symbols = symbols(&analysis, names);
+    Some(Asked { meant: vec![(Arc::clone(&analysis), first.referent)], symbols, written })
 }
 
 /// The places of one file that name one of the symbols.
@@ -99,6 +121,12 @@ pub(crate) fn references_in<F: Files>(
         return Vec::new();
     }
     let Ok(analysis) = project.analysis(file) else { return Vec::new() };
+    if Kind::of(Path::new(file)) == Some(Kind::Coupling) {
+        let mut named = coupling::all_named(project, &analysis, written);
+        named.retain(|named| named.symbols().iter().any(|symbol| symbols.contains(symbol)));
+        let place = |range| Place { path: file.to_string(), range };
+        return named.iter().map(|named| Reference { place: place(named.range), role: Role::Read }).collect();
+    }
     // An operator is no place that names its function.
     let is_written = |name: &&Use| analysis.text()[name.span.range()] == *written;
     let named = analysis.names.iter().filter(is_written);
@@ -158,10 +186,7 @@ pub(crate) fn places_to_look<F: Files>(
 
 /// The places of the file itself that name what is named at an offset.
 pub fn highlights<F: Files>(project: &mut Project<F>, path: &str, offset: u32) -> Vec<Reference> {
-    let Ok(analysis) = project.analysis(path) else { return Vec::new() };
-    let Some(first) = analysis.names_at(offset).first() else { return Vec::new() };
-    let written = analysis.text()[first.span.range()].to_string();
-    let symbols = symbols(&analysis, analysis.names_at(offset));
+    let Some(Asked { symbols, written, .. }) = asked(project, path, offset) else { return Vec::new() };
     references_in(project, path, &symbols, &written)
 }
 

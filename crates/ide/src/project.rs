@@ -9,10 +9,11 @@ use std::path::Path;
 use std::sync::Arc;
 
 use groundstate::program::Program;
+use groundstate::refine::Coupling;
 use groundstate::reporting::specification_beside;
 use groundstate::session::Scene;
 use groundstate::workspace::{Absent, Files, Findings, NotLoaded, Outdated, Reads, STOPPED, imported, tidy};
-use groundstate::{Kind, Loaded, Suite, Workspace, chart_of, model_of, patterns, verified_system};
+use groundstate::{Kind, Loaded, Suite, Workspace, chart_of, coupling_of, model_of, patterns, verified_system};
 use model::{Checked, Loader, Model};
 use syntax::ast::{AstNode, ScenarioFile};
 use syntax::{FileId, Severity, SourceFile, Sources, Stop, SyntaxNode};
@@ -218,6 +219,12 @@ impl<F: Files> Project<F> {
         let loaded = chart::load(source, &mut self.workspace.texts());
         self.not_stopped().map_err(|absent| absent.told(path))?;
         Ok(loaded)
+    }
+
+    /// What a coupling says of the two models that it names; none if one of the three has faults.
+    pub(crate) fn coupling(&mut self, path: &str) -> Option<Coupling> {
+        let source = self.text(path).ok()?;
+        coupling_of(&source, &mut self.workspace.texts()).ok()
     }
 
     /// The tree of a file, whatever it means.

@@ -4,15 +4,20 @@
 //! every name of every file that was looked at means what it meant before: the edits are made to a copy of the project, and all
 //! names are looked up again. A file that writes the name and cannot be understood there refuses the whole.
 
+mod coupled;
+
 use std::collections::BTreeMap;
 use std::path::Path;
+use std::sync::Arc;
 
 use groundstate::Kind;
 use groundstate::workspace::Files;
-use model::{Referent, Use};
+use model::Referent;
+
 use syntax::{FileId, Severity, SyntaxKind, SyntaxNode};
 
 use crate::analysis::{Analysis, Place, Symbol, is_word};
+use crate::coupling;
 use crate::navigate::{places_to_look, symbols};
 use crate::position::{Edit, edited};
 use crate::project::{Overlaid, Project, library_text};
@@ -25,8 +30,7 @@ pub type Edits = BTreeMap<String, Vec<Edit>>;
 /// # Errors
 /// Why nothing can, as a sentence.
 pub fn prepare<F: Files>(project: &mut Project<F>, path: &str, offset: u32) -> Result<Place, String> {
-    let (analysis, first, _) = target(project, path, offset)?;
-    Ok(analysis.place(first.span))
+    Ok(target(project, path, offset)?.place)
 }
 
 /// Renames what is named at an offset.
@@ -34,18 +38,19 @@ pub fn prepare<F: Files>(project: &mut Project<F>, path: &str, offset: u32) -> R
 /// # Errors
 /// Why it cannot be done, as a sentence.
 pub fn rename<F: Files>(project: &mut Project<F>, path: &str, offset: u32, to: &str) -> Result<Edits, String> {
-    let (analysis, first, symbol) = target(project, path, offset)?;
-    let from = analysis.text()[first.span.range()].to_string();
-    has_the_shape(first.referent, &from, to)?;
+    let Target { known: (analysis, referent), written: from, symbol, .. } = target(project, path, offset)?;
+    has_the_shape(referent, &from, to)?;
     if from == to {
         return Ok(Edits::new());
     }
     let mut edits = Edits::new();
     let mut looked_at = Vec::new();
-    for file in places_to_look(project, &analysis, first.referent) {
+    for file in places_to_look(project, &analysis, referent) {
         let Ok(source) = project.text(&file) else { continue };
-        if Kind::of(Path::new(&file)) == Some(Kind::Chart) {
-            no_shape_stands_for(project, &file, &from, &symbol)?;
+        match Kind::of(Path::new(&file)) {
+            Some(Kind::Chart) => no_shape_stands_for(project, &file, &from, &symbol)?,
+            Some(Kind::Coupling) => coupled::no_literal_is_of_both(project, &file, referent, &from, &symbol)?,
+            _ => {}
         }
         if !names_word(&source.text, &from) {
             // It may still see the new name, and then mean something else by it.
@@ -57,7 +62,11 @@ pub fn rename<F: Files>(project: &mut Project<F>, path: &str, offset: u32, to: &
         if Kind::of(Path::new(&file)).is_none() {
             continue;
         }
-        let found = in_file(project, &file, &from, to, &symbol)?;
+        let found = match Kind::of(Path::new(&file)) {
+            Some(Kind::Coupling) if matches!(referent, Referent::Variable(..)) => continue,
+            Some(Kind::Coupling) => coupled::edits(project, &file, &from, to, &symbol)?,
+            _ => in_file(project, &file, &from, to, &symbol)?,
+        };
         if !found.is_empty() {
             edits.insert(file.clone(), found);
         }
@@ -67,16 +76,30 @@ pub fn rename<F: Files>(project: &mut Project<F>, path: &str, offset: u32, to: &
     Ok(edits)
 }
 
+/// A name that is to change.
+struct Target {
+    place: Place,
+    written: String,
+    /// What it means, and a file that knows it.
+    known: (Arc<Analysis>, Referent),
+    symbol: Symbol,
+}
+
 /// The name at an offset, and the one thing that it means.
-fn target<F: Files>(
-    project: &mut Project<F>,
-    path: &str,
-    offset: u32,
-) -> Result<(std::sync::Arc<Analysis>, model::Use, Symbol), String> {
+fn target<F: Files>(project: &mut Project<F>, path: &str, offset: u32) -> Result<Target, String> {
     let analysis = project.analysis(path).map_err(|absent| absent.told(path))?;
-    let names = analysis.names_at(offset);
-    let Some(first) = names.first().copied() else { return Err("there is no name that is known here".to_string()) };
-    let [symbol] = symbols(&analysis, names).try_into().map_err(|_| {
+    let unknown = || "there is no name that is known here".to_string();
+    let (place, known, symbols) = if Kind::of(Path::new(path)) == Some(Kind::Coupling) {
+        let named = coupling::named(project, &analysis, offset).ok_or_else(unknown)?;
+        let symbols = named.symbols();
+        let known = named.meant.into_iter().next().ok_or_else(unknown)?;
+        (Place { path: path.to_string(), range: named.range }, known, symbols)
+    } else {
+        let names = analysis.names_at(offset);
+        let first = names.first().ok_or_else(unknown)?;
+        (analysis.place(first.span), (Arc::clone(&analysis), first.referent), symbols(&analysis, names))
+    };
+    let [symbol] = symbols.try_into().map_err(|_| {
         "this name stands for several functions or rules: rename one where it is declared or used".to_string()
     })?;
     match &symbol {
@@ -86,10 +109,11 @@ fn target<F: Files>(
         }
         Symbol::At(..) => {}
     }
-    if !analysis.text()[first.span.range()].starts_with(|c: char| c.is_ascii_alphabetic() || c == '$') {
+    let written = analysis.text()[place.range.0 as usize..place.range.1 as usize].to_string();
+    if !written.starts_with(|c: char| c.is_ascii_alphabetic() || c == '$') {
         return Err("an operator has one name for all".to_string());
     }
-    Ok((analysis, first, symbol))
+    Ok(Target { place, written, known, symbol })
 }
 
 /// A name says by its shape what it names.
@@ -140,7 +164,8 @@ fn in_file<F: Files>(
     let Some(tree) = analysis.tree() else {
         // A specification: what of it is text for people is not known to be a name.
         let named = analysis.names.iter().filter(|name| analysis.text()[name.span.range()] == *from);
-        let mut meant: Vec<Use> = named.filter(|name| analysis.symbol(name.referent) == *symbol).copied().collect();
+        let mut meant: Vec<model::Use> =
+            named.filter(|name| analysis.symbol(name.referent) == *symbol).copied().collect();
         meant.dedup_by_key(|name| name.span);
         return Ok(meant.iter().map(|name| Edit::new(name.span.start..name.span.end, to)).collect());
     };
@@ -216,6 +241,8 @@ fn proved<F: Files>(
     from: &str,
     to: &str,
 ) -> Result<(), String> {
+    let coupled = coupled_over(project, edits);
+    let said: Vec<_> = coupled.iter().map(|file| coupled::says(project, file, from, to)).collect();
     let built = built_over(project, edits);
     let mut faults = BTreeMap::new();
     for file in built {
@@ -247,6 +274,11 @@ fn proved<F: Files>(
             });
         }
     }
+    for (file, before) in coupled.into_iter().zip(said) {
+        if before.is_some() && coupled::says(&mut after, &file, from, to) != before {
+            return Err(format!("{file} compares two machines, and relies on the name `{from}` there: rename by hand"));
+        }
+    }
     for (file, before) in before {
         let analysis = after.analysis(&file).map_err(|absent| absent.told(&file))?;
         if meanings(&analysis, &Edits::new()) != before {
@@ -254,6 +286,21 @@ fn proved<F: Files>(
         }
     }
     Ok(())
+}
+
+/// The couplings of models that read a file that is edited.
+fn coupled_over<F: Files>(project: &mut Project<F>, edits: &Edits) -> Vec<String> {
+    let mut files = project.all_files();
+    files.retain(|file| Kind::of(Path::new(file)) == Some(Kind::Coupling));
+    files.retain(|file| {
+        let Ok(own) = project.analysis(file) else { return false };
+        let models = coupling::models(project, &own).into_iter().flatten();
+        edits.contains_key(file)
+            || models
+                .flat_map(|model| model.sources.iter().map(|(_, source)| source.name.clone()).collect::<Vec<_>>())
+                .any(|name| edits.contains_key(&name))
+    });
+    files
 }
 
 /// The charts and specifications whose models read a file that is edited, and those beside it: it may be the machine of a component. What is
