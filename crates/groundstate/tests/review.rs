@@ -76,3 +76,41 @@ fn all_clashes_of_a_step_are_found() {
     // One for the second update of each pair that clashes. A `seq` ends at its first clash.
     assert_eq!(found.lines().filter(|line| line.ends_with("inconsistent-update")).count(), 3, "{found}");
 }
+
+/// What no rule updates has its values all the same, whether or not the search keeps them in its states.
+#[test]
+fn what_keeps_its_initial_value_takes_it() {
+    let check = |functions: &str, rule: &str, initials: &str, expected: &[&str]| {
+        let text = format!(
+            "asm M import StandardLibrary signature: enum domain E = {{AA | BB}} {functions} controlled x: Boolean\n\
+             definitions: main rule r_Main = {rule} default init s0: {initials} function x = true"
+        );
+        let told = findings(&text);
+        let about_values = |line: &&str| {
+            line.starts_with("MP5") || line.starts_with("MP6") || line.ends_with("taken") || line.ends_with("element")
+        };
+        let found: Vec<&str> = told.lines().filter(about_values).map(str::trim).collect();
+        assert_eq!(found, expected, "{text}");
+    };
+    let (holds, flips) = (["MP5 holds", "MP6 holds"], "x := (k(x) = BB)");
+    let by_argument = "function k($b in Boolean) = if $b then AA else BB endif";
+    check("controlled k: Boolean -> E", flips, by_argument, &holds);
+    let one = ["MP5 violated", "1 unused-element", "MP6 violated", "1 value-never-taken"];
+    check("controlled k: Boolean -> E", "x := (k(x) = BB) = x", "function k($b in Boolean) = AA", &one);
+    check("controlled k: E", "if k = AA then x := not x endif", "function k = AA", &one);
+    // So many locations cannot be listed: the values are those that are written.
+    let of_numbers = "controlled k: Integer -> E";
+    check(
+        of_numbers,
+        "x := k(if x then 1 else 2 endif) = AA or not x",
+        "function k($i in Integer) = if $i > 1 then AA else BB endif",
+        &holds,
+    );
+    check(of_numbers, "x := not x and k(1) = AA", "function k($i in Integer) = AA", &one);
+    check(
+        of_numbers,
+        "x := not x and k(1) = AA",
+        "function k($i in Integer) = if $i > 1 then last(asSequence({AA})) else AA endif",
+        &holds,
+    );
+}

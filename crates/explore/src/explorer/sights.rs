@@ -6,6 +6,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use machine::inside::is_kept;
 use machine::{Fault, Location, Observation, Value};
 use rustc_hash::FxHashSet;
 
@@ -13,6 +14,7 @@ use crate::alternatives::kind::AlternativeKind;
 use crate::explorer::Explorer;
 use crate::explorer::sighting::{Met, Sighting};
 use crate::packed::kept::is_input;
+use crate::packed::words::NOWHERE;
 
 impl Explorer {
     /// Notes what the step at hand showed.
@@ -110,6 +112,14 @@ impl Explorer {
         if encoding.rest.is_none() {
             for (location, value) in &encoding.constant_rest.locations {
                 values.entry(location.clone()).or_default().insert(value.clone());
+            }
+        }
+        // What no step changes, and is the same in all initial states, is no part of states.
+        let store = machine.store();
+        for (index, _) in (0..).zip(encoding.of_location.iter()).filter(|(_, place)| **place == NOWHERE) {
+            let location = store.location(index);
+            if is_kept(program, location.function) {
+                values.entry(location).or_default().insert(store.value(index).clone());
             }
         }
         values

@@ -65,7 +65,7 @@ impl Reviewer<'_> {
     }
 
     /// The locations of a function, if they are few.
-    fn all_locations(&mut self, function: FunctionId) -> Vec<Location> {
+    pub(super) fn all_locations(&mut self, function: FunctionId) -> Vec<Location> {
         let mut tuples: Vec<Vec<Value>> = vec![Vec::new()];
         for parameter in &self.program.function(function).parameters {
             let Some(elements) = self.survey.elements(*parameter, LOCATIONS) else { return Vec::new() };

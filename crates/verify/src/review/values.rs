@@ -1,14 +1,15 @@
 //! MP5 and MP6: the elements of domains, and the values of functions.
 //!
 //! In: the values that occurred. An element is used if it is the value of some location, or a part of one: of a dynamic
-//! location in some state, of an input that a rule reads, of a static function without a definition. LIMIT: domains
-//! with more elements, and growing ones, are skipped; derived functions are not considered.
+//! location in some state, of an input that a rule reads, of a static function without a definition. The initial values of a function
+//! that has more locations than can be listed are those that are written as its alternatives; if they are computed, they may be any.
+//! LIMIT: domains with more elements, and growing ones, are skipped; derived functions are not considered.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use machine::{Observation, Value};
 use model::FunctionKind;
-use program::{DomainId, DomainKind, FunctionId, Term};
+use program::{DomainId, DomainKind, FunctionId, Term, TermId};
 
 use crate::review::{Matter, Meta, Reviewer};
 
@@ -31,12 +32,57 @@ impl Reviewer<'_> {
             }
             let span = function.span;
             let Some(elements) = self.values_of(function.codomain) else { continue };
+            let Some(begun) = self.written_initials(id) else { continue };
             let none = BTreeSet::new();
             let taken = taken.get(&id).unwrap_or(&none);
-            let missing: Vec<Value> = elements.into_iter().filter(|value| !taken.contains(value)).collect();
+            let is_taken = |value: &Value| taken.contains(value) || begun.contains(value);
+            let missing: Vec<Value> = elements.into_iter().filter(|value| !is_taken(value)).collect();
             if !missing.is_empty() {
                 self.find(Meta::ValueTaken, Matter::NeverTaken(id, missing), span);
             }
+        }
+    }
+
+    /// The initial values of a function whose locations cannot be listed; none if they are computed. Those of other functions have been met.
+    fn written_initials(&mut self, id: FunctionId) -> Option<BTreeSet<Value>> {
+        let mut found = BTreeSet::new();
+        if !self.all_locations(id).is_empty() {
+            return Some(found);
+        }
+        let program = self.program;
+        let initials = program.initials.iter().filter(|initial| initial.function == id);
+        let mut open: Vec<TermId> = initials.map(|initial| initial.value.body).collect();
+        while let Some(term) = open.pop() {
+            match program.term(term) {
+                Term::If { branches, otherwise } | Term::Switch { cases: branches, otherwise, .. } => {
+                    open.extend(program.term_list(*branches).iter().skip(1).step_by(2));
+                    open.extend(otherwise);
+                }
+                Term::Let { body, .. } => open.push(*body),
+                _ => {
+                    found.insert(self.written(term)?);
+                }
+            }
+        }
+        Some(found)
+    }
+
+    /// The value of a term that is a literal or an element.
+    fn written(&self, term: TermId) -> Option<Value> {
+        match self.program.term(term) {
+            Term::Constant(index) => match self.program.constants[*index as usize] {
+                program::Literal::Enum(domain, literal) => Some(Value::Enum(domain, literal)),
+                program::Literal::Integer(number) => Some(Value::Integer(number)),
+                program::Literal::Boolean(truth) => Some(Value::Boolean(truth)),
+                program::Literal::Undef => Some(Value::Undef),
+                _ => None,
+            },
+            Term::Read { function, .. } => {
+                let function = self.program.function(*function);
+                let domain = self.program.base_domain(function.codomain);
+                function.element.map(|element| Value::Element(domain, element))
+            }
+            _ => None,
         }
     }
 
@@ -69,6 +115,16 @@ impl Reviewer<'_> {
             }
         }
         self.constants_of_statics(&mut used);
+        for index in 0..self.program.functions.len() {
+            let (id, function) = (FunctionId(index as u32), &self.program.functions[index]);
+            let begins = self.program.initials.iter().any(|initial| initial.function == id);
+            let begun = match begins {
+                true => self.written_initials(id).map(|values| values.into_iter().collect()),
+                false => continue,
+            };
+            let begun: Vec<Value> = begun.or_else(|| self.values_of(function.codomain)).unwrap_or_default();
+            begun.iter().for_each(|value| parts(value, &mut used));
+        }
         let mut index = 0;
         while let Some(domain) = self.program.domains.get(index) {
             let id = DomainId(index as u32);
@@ -105,23 +161,7 @@ impl Reviewer<'_> {
             statics.filter_map(|f| f.definition.as_ref().map(|definition| definition.body)).collect();
         while let Some(term) = open.pop() {
             self.program.each_child_of_term(term, &mut |child| open.push(child));
-            match self.program.term(term) {
-                Term::Constant(index) => match self.program.constants[*index as usize] {
-                    program::Literal::Enum(domain, literal) => {
-                        used.insert(Value::Enum(domain, literal));
-                    }
-                    program::Literal::Integer(number) => {
-                        used.insert(Value::Integer(number));
-                    }
-                    _ => {}
-                },
-                Term::Read { function, .. } => {
-                    let function = self.program.function(*function);
-                    let element = |element| Value::Element(self.program.base_domain(function.codomain), element);
-                    used.extend(function.element.map(element));
-                }
-                _ => {}
-            }
+            used.extend(self.written(term));
         }
     }
 }
