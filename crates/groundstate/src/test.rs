@@ -166,6 +166,13 @@ impl Suite {
         })
     }
 
+    /// Takes what the scenarios covered of all models so far. Places are those of the models as they are loaded.
+    pub fn take_counts(&mut self) -> Counts {
+        let mut all = Counts::default();
+        std::mem::take(&mut self.counts).values().for_each(|counts| all.merge(counts));
+        all
+    }
+
     fn ready(&mut self, source: SourceFile, loader: &mut dyn Loader) -> Ready {
         let stem = source.name.rsplit(['/', '\\']).next().unwrap_or_default().trim_end_matches(".avalla");
         let name = stem.to_string();

@@ -6,9 +6,10 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use groundstate::scenario::{FirstCandidate, Items, Options as Scenario};
-use groundstate::test_generation::{GoalKind, Method, Subject, Tests, generate_tests};
+use groundstate::test_generation::{GoalKind, Method, Subject, Tests, Trial, generate_tests};
 use groundstate::verify::{Options, Reason};
 use groundstate::{Loaded, Suite};
+use machine::Limits;
 use syntax::{SourceFile, Span};
 use testkit::{Disk, Texts, repository};
 
@@ -211,4 +212,38 @@ fn no_scenario_is_superfluous() {
             assert_ne!(covered(&run(&path, &fewer)), stated(&tests), "{name}: {}", one.text);
         }
     }
+}
+
+/// A scenario that passes though it may go another way shows only what it shows whatever is chosen.
+#[test]
+fn a_way_that_cannot_be_picked_reaches_nothing() {
+    let text = "asm Model import StandardLibrary signature: domain D subsetof Integer controlled a: D controlled b: D\n\
+                definitions: domain D = {0:2} main rule r_Main = par if a = 0 then a := 2 endif b := 1 endpar\n\
+                default init s0: function a = chooseone({0, 2}) function b = 0";
+    let mut tests = generate_of(text, &Options::default());
+    let mut loader = Texts::of([("Model.asm", text)]);
+    let (mut trial, mut kept) = (Trial::default(), Vec::new());
+    for index in 0..tests.scenarios.len() {
+        let source = SourceFile::new("x.avalla", tests.scenarios[index].text.as_str());
+        let shown = trial.shown(&tests.scenarios[index], &source, &mut loader, &Limits::default());
+        kept.extend(shown.is_some_and(|shown| tests.settle(index, shown, &kept)).then_some(index));
+    }
+    let reached = tests.reached_by(&kept);
+    let told: Vec<(GoalKind, bool, bool)> =
+        tests.goals.iter().zip(reached).map(|(goal, reached)| (goal.kind, goal.reached, reached)).collect();
+    let (then, none) = (GoalKind::Branch("then"), GoalKind::Branch("no branch"));
+    let (rule, update) = (GoalKind::Rule, GoalKind::Update);
+    assert_eq!(
+        told,
+        [(rule, true, true), (none, true, false), (then, true, false), (update, true, false), (update, true, true)]
+    );
+    assert_eq!(kept.len(), 1, "{kept:?}");
+    assert!(tests.scenarios[kept[0]].text.starts_with("// reaches 2 goals\n"), "{}", tests.scenarios[kept[0]].text);
+}
+
+#[test]
+fn where_invariants_leave_nothing_no_assumption_is_blamed() {
+    let text = "asm Model import StandardLibrary signature: controlled a: Boolean definitions: invariant over a: not a\n\
+                main rule r_Main = a := not a default init s0: function a = true";
+    assert_eq!(generate_of(text, &Options::default()).reasons, [Reason::Unlawful]);
 }

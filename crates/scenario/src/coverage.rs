@@ -43,7 +43,8 @@ impl Counts {
         other.rules.iter().for_each(|(span, count)| self.add(*span, *count));
     }
 
-    fn show(&self, evidence: Evidence) -> bool {
+    /// Whether it was shown.
+    pub fn show(&self, evidence: Evidence) -> bool {
         let at = |span: Span| self.rules.get(&span).copied().unwrap_or_default();
         match evidence {
             Evidence::Ran(span) => at(span).executed > 0,

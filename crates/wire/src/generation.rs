@@ -14,7 +14,7 @@ pub struct Goal<'a> {
     what: String,
     of: &'a str,
     at: Place,
-    /// `reached`, `unreachable` or `unknown`.
+    /// `reached`, `untested`, `unreachable` or `unknown`.
     outcome: &'static str,
 }
 

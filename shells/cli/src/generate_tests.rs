@@ -1,26 +1,27 @@
 //! `groundstate generate-tests MODEL -o FOLDER`: writes scenarios that reach the goals of a model.
 //!
-//! Each scenario is run before it is kept. One that fails, because no scenario can express a choice of its run, is left
+//! Each scenario is run before it is kept. One that fails or goes another way, because no scenario can express a choice of its run, is left
 //! out and reported. Exit codes: 0 written, 3 written but the search did not finish, so goals may be missing.
 
 use std::collections::BTreeMap;
-use std::io::Write;
+use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use clap::Args;
 use groundstate::job::{self, Cancel, TestsEvent, TestsRequest};
-use groundstate::test_generation::{Goal, Method, Tests, passes_whatever_is_chosen};
+use groundstate::scenario::Options;
+use groundstate::test_generation::{Generated, Method, Tests, Trial};
 use groundstate::verify::{Reason, Stop};
-use groundstate::{Suite, own_files};
-use syntax::FileId;
+use groundstate::{SeededChoices, Suite, own_files};
+use syntax::{FileId, SourceFile};
 use wire::Place;
 
 use crate::check::plural;
 use crate::coverage;
 use crate::exit::Exit;
 use crate::failure::Failure;
-use crate::files::{read_source, relative, write_text};
+use crate::files::{relative, write_text};
 use crate::interrupt;
 use crate::load::load;
 use crate::shell::Shell;
@@ -93,17 +94,18 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     let generated = job.finish().unwrap_or_else(|crashed| panic!("{}", crashed.0));
     let timed_out = watch.done();
     let teller = Teller::new(&program, &sources, timed_out);
-    let tests = match generated {
+    let mut tests = match generated {
         Ok(tests) => tests,
         Err(trouble) => return no_start(shell, &teller, trouble),
     };
     let mut suite = Suite::new();
-    let left_out = write(shell, folder, &tests, &mut suite)?;
-    told(shell, &teller, &tests)?;
+    let kept = write(shell, folder, &mut tests, &mut suite)?;
+    told(shell, &teller, &tests, &kept)?;
     for (model, sources, items) in suite.coverage() {
         coverage::report(shell, model, sources, &items)?;
     }
-    for name in &left_out {
+    let left_out = tests.scenarios.iter().enumerate().filter(|(index, _)| !kept.contains(index));
+    for (_, Generated { name, .. }) in left_out {
         shell.note(&format!("{name} is left out: it needs a choice that no scenario can pick"))?;
     }
     let stopped = |reason: &Reason| matches!(reason, Reason::Stopped(Stop::States)) || timed_out;
@@ -114,19 +116,29 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     Ok(if ended { Exit::Good } else { Exit::Unknown })
 }
 
-/// Writes the scenarios that pass; returns the names of the others.
-fn write(shell: &mut Shell, folder: &Path, tests: &Tests, suite: &mut Suite) -> Result<Vec<String>, Failure> {
+/// Writes the scenarios that do what they were made for; returns their numbers.
+fn write(shell: &mut Shell, folder: &Path, tests: &mut Tests, suite: &mut Suite) -> Result<Vec<usize>, Failure> {
     let limits = shell.global.limits.uninterrupted();
-    let mut left_out = Vec::new();
-    for scenario in &tests.scenarios {
+    let (mut kept, mut trial) = (Vec::new(), Trial::default());
+    for index in 0..tests.scenarios.len() {
+        let scenario = &tests.scenarios[index];
         let path = folder.join(format!("{}.avalla", scenario.name));
-        write_text(&path, &scenario.text)?;
-        let source = read_source(&path, shell.global.limits.max_file_size)?;
-        if !passes_whatever_is_chosen(suite, &source, &mut shell.disk(), limits.clone()) {
-            std::fs::remove_file(&path).map_err(|error| Failure::of_file("write", &path, error))?;
-            left_out.push(scenario.name.clone());
-            continue;
+        let source = SourceFile::new(path.display().to_string(), scenario.text.as_str());
+        let shown = trial.shown(scenario, &source, &mut shell.disk(), &limits);
+        if !shown.is_some_and(|shown| tests.settle(index, shown, &kept)) {
+            // An earlier one of its name is as little worth keeping.
+            match std::fs::remove_file(&path) {
+                Err(error) if error.kind() != ErrorKind::NotFound => {
+                    return Err(Failure::of_file("write", &path, error));
+                }
+                _ => continue,
+            }
         }
+        let scenario = &tests.scenarios[index];
+        write_text(&path, &scenario.text)?;
+        let options = Options { limits: limits.clone(), coverage: true, ..Options::default() };
+        suite.test(source, &mut shell.disk(), options, &mut SeededChoices::new(0));
+        kept.push(index);
         if shell.json() {
             let path = path.display().to_string();
             shell.object(&wire::Generated::new(path, scenario.steps))?;
@@ -134,39 +146,42 @@ fn write(shell: &mut Shell, folder: &Path, tests: &Tests, suite: &mut Suite) -> 
             writeln!(shell.out(), "wrote {}: {}", path.display(), plural(scenario.steps, "step"))?;
         }
     }
-    Ok(left_out)
+    Ok(kept)
 }
 
 /// Reports which goals are reached and which are not.
-fn told(shell: &mut Shell, teller: &Teller<'_>, tests: &Tests) -> Result<(), Failure> {
+fn told(shell: &mut Shell, teller: &Teller<'_>, tests: &Tests, kept: &[usize]) -> Result<(), Failure> {
+    let reached = tests.reached_by(kept);
     let mut kinds: BTreeMap<&'static str, (usize, usize)> = BTreeMap::new();
-    for goal in &tests.goals {
+    for (goal, reached) in tests.goals.iter().zip(&reached) {
         let entry = kinds.entry(goal.kind.words().0).or_default();
-        entry.0 += usize::from(goal.reached);
+        entry.0 += usize::from(*reached);
         entry.1 += 1;
     }
     let complete = tests.reasons.is_empty();
-    let outcome = |goal: &Goal| match (goal.reached, complete) {
-        (true, _) => "reached",
-        (false, true) => "unreachable",
-        (false, false) => "unknown",
-    };
+    let outcomes = tests.goals.iter().zip(&reached).map(|(goal, reached)| match (reached, goal.reached, complete) {
+        (true, ..) => "reached",
+        (false, true, _) => "untested",
+        (false, false, true) => "unreachable",
+        (false, false, false) => "unknown",
+    });
+    let goals: Vec<_> = tests.goals.iter().zip(outcomes).collect();
     if shell.json() {
-        for goal in &tests.goals {
+        for (goal, outcome) in goals {
             let (kind, what) = goal.kind.words();
             let (of, at) = (goal.rule.as_str(), Place::new(teller.words.sources, goal.span));
-            shell.object(&wire::Goal::new(kind, what, of, at, outcome(goal)))?;
+            shell.object(&wire::Goal::new(kind, what, of, at, outcome))?;
         }
     } else if shell.talks() {
         writeln!(shell.out(), "\ngoals")?;
         for (kind, (reached, all)) in kinds {
             writeln!(shell.out(), "  {kind:<12} {reached:>4} of {all}")?;
         }
-        for goal in tests.goals.iter().filter(|goal| !goal.reached) {
+        for (goal, outcome) in goals.into_iter().filter(|(_, outcome)| *outcome != "reached") {
             let at = teller.words.sources.position(goal.span);
             let (kind, what) = goal.kind.words();
             let what = if what.is_empty() { kind } else { what };
-            writeln!(shell.out(), "  {:<11} {at}: {what} of {}", outcome(goal), goal.rule)?;
+            writeln!(shell.out(), "  {outcome:<11} {at}: {what} of {}", goal.rule)?;
         }
         if tests.progress.is_some() && !complete {
             let reasons: Vec<String> = tests.reasons.iter().map(|reason| teller.words.reason(reason)).collect();

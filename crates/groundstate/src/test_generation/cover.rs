@@ -37,7 +37,7 @@ impl Candidate {
         &self.trace
     }
 
-    fn all(&self) -> BTreeSet<Need> {
+    pub fn all(&self) -> BTreeSet<Need> {
         self.meets.iter().flatten().copied().collect()
     }
 

@@ -24,7 +24,7 @@ use cover::{Candidate, cover};
 use goals::{Need, goals, needs_met};
 
 pub use goals::{Goal, GoalKind, Turn};
-pub use kept::passes_whatever_is_chosen;
+pub use kept::{Shown, Trial};
 pub use turns::chart_turns;
 
 /// How to search for goals.
@@ -45,6 +45,8 @@ pub struct Generated {
     pub text: String,
     /// How many steps it makes.
     pub steps: usize,
+    /// What its steps show of what is wanted.
+    meets: BTreeSet<Need>,
 }
 
 /// Tests of a model.
@@ -58,6 +60,29 @@ pub struct Tests {
     pub progress: Option<Progress>,
     /// Why goals that were not reached may still be reachable; empty if every state was explored.
     pub reasons: Vec<Reason>,
+}
+
+impl Tests {
+    /// From now on a scenario shows this and nothing else. Whether that is more than the `kept` ones show.
+    pub fn settle(&mut self, index: usize, shown: Shown, kept: &[usize]) -> bool {
+        let before: BTreeSet<&Need> = kept.iter().flat_map(|index| &self.scenarios[*index].meets).collect();
+        let is_more = shown.0.iter().any(|need| !before.contains(need));
+        let met = |goal: &&Goal| goal.reached && goal.needs.iter().any(|need| shown.0.contains(need));
+        let goals = self.goals.iter().filter(met).count();
+        let generated = &mut self.scenarios[index];
+        if generated.meets != shown.0 {
+            let rest = generated.text.split_once('\n').map_or("", |(_, rest)| rest);
+            generated.text = format!("{}\n{rest}", write::headline(goals));
+            generated.meets = shown.0;
+        }
+        is_more
+    }
+
+    /// By goal, whether the scenarios of these numbers reach it.
+    pub fn reached_by(&self, kept: &[usize]) -> Vec<bool> {
+        let met: BTreeSet<&Need> = kept.iter().flat_map(|index| &self.scenarios[*index].meets).collect();
+        self.goals.iter().map(|goal| goal.reached && goal.needs.iter().all(|need| met.contains(need))).collect()
+    }
 }
 
 /// The model to generate tests for.
@@ -128,7 +153,7 @@ pub fn generate_tests(
     let chosen = cover(candidates);
     let scenarios = chosen.iter().enumerate().map(|(index, candidate)| {
         let met = |goal: &&Goal| goal.reached && goal.needs.iter().any(|need| candidate.meets(need));
-        write::scenario(&subject, index + 1, candidate.trace(), goals.iter().filter(met).count())
+        write::scenario(&subject, index + 1, candidate, goals.iter().filter(met).count())
     });
     Ok(Tests { scenarios: scenarios.collect(), goals, progress, reasons })
 }

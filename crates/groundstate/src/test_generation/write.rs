@@ -4,16 +4,22 @@ use std::fmt::Write;
 
 use machine::{Change, Location, Show, Value};
 use program::{FunctionKind, Program};
-use verify::Trace;
 
 use crate::avalla::{is_said, pick, set};
+use crate::test_generation::cover::Candidate;
 use crate::test_generation::{Generated, Subject};
 
-/// The scenario of a trace.
-pub(super) fn scenario(subject: &Subject<'_>, number: usize, trace: &Trace, goals: usize) -> Generated {
+/// The first line of a scenario that reaches so many goals.
+pub(super) fn headline(goals: usize) -> String {
+    format!("// reaches {}", crate::tell::plural(goals, "goal"))
+}
+
+/// The scenario of a walk.
+pub(super) fn scenario(subject: &Subject<'_>, number: usize, walk: &Candidate, goals: usize) -> Generated {
+    let trace = walk.trace();
     let program: &Program = subject.program;
     let name = format!("{}_{number}", program.name);
-    let mut text = format!("// reaches {goals} goals\nscenario {name}\nload \"{}\"\n", subject.path);
+    let mut text = format!("{}\nscenario {name}\nload \"{}\"\n", headline(goals), subject.path);
     let mut given: Vec<(Location, Value)> = Vec::new();
     let mut state = trace.values.clone();
     set(&mut text, program, &mut given, &trace.start.inputs);
@@ -34,7 +40,7 @@ pub(super) fn scenario(subject: &Subject<'_>, number: usize, trace: &Trace, goal
             state.iter().for_each(|(location, value)| check(&mut text, program, location, value));
         }
     }
-    Generated { name, text, steps: trace.steps.len() }
+    Generated { name, text, steps: trace.steps.len(), meets: walk.all() }
 }
 
 /// Checks the present value of a location, if a term can express it.

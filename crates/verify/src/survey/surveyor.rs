@@ -89,7 +89,8 @@ pub fn survey(
     }
     let mut reasons: BTreeSet<Reason> = survey.reasons.drain(..).collect();
     reasons.extend(survey.stop.map(Reason::Stopped));
-    if survey.stop.is_none() && survey.table.len() == 0 {
+    // Where invariants leave nothing, assumptions need not.
+    if survey.stop.is_none() && survey.table.len() == 0 && !reasons.contains(&Reason::Unlawful) {
         reasons.insert(Reason::Vacuous);
     }
     reasons.extend(survey.explorer.unbounded().iter().copied().map(Reason::Unbounded));
