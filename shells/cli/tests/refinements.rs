@@ -225,3 +225,29 @@ fn what_has_a_name_in_common_alone_is_told_as_left_out() {
     assert!(said.contains(&format!("\"left_out\":[\"{told}\"]")), "{said}");
     assert!(!refine(&["One.asm", "One.asm"]).contains("left out"));
 }
+
+/// What holds of fair runs may hold of none: where the concrete model speaks of fairness, that is said.
+#[test]
+fn what_comes_along_is_about_fair_runs() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let model = |name: &str, property: &str| {
+        let text = format!(
+            "asm {name}\nimport StandardLibrary\nimport LTLLibrary\nsignature:\ncontrolled x: Boolean\ndefinitions:\n\
+             {property}\nmain rule r_Main = x := not x\ndefault init s0:\nfunction x = true\n"
+        );
+        std::fs::write(folder.path().join(format!("{name}.asm")), text).expect("it is written");
+    };
+    model("Ground", "LTLSPEC g(f(x))");
+    model("Free", "");
+    model("Fair", "JUSTICE x and not x");
+    let check = |concrete: &str, is_noted: bool| {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_groundstate"));
+        let run = command.args(["refine", "Ground.asm", concrete, "--properties"]).current_dir(folder.path()).output();
+        let said = String::from_utf8_lossy(&run.expect("it starts").stdout).into_owned();
+        assert!(said.contains("holds: g(f(x))"), "{said}");
+        let note = "note: formulas are about the fair runs of the concrete machine; `verify` tells whether it has one";
+        assert_eq!(said.contains(note), is_noted, "{said}");
+    };
+    check("Free.asm", false);
+    check("Fair.asm", true);
+}

@@ -5,6 +5,8 @@
 use std::collections::BTreeMap;
 
 use explore::Told;
+use model::PropertyKind;
+use program::Property;
 use refine::{
     ABSTRACT, Assumed, CONCRETE, Coupling, Ended, From, Incomparable, LeftOut, MOST, Preserved, Refutation, Report,
     Run, SIDES, Trouble, Vacuous, Verdict, Why,
@@ -330,6 +332,16 @@ impl Refinements<'_> {
                 (_, Err(why)) => format!("does not come along: {why}"),
             };
             lines.push(format!("  {:width$}  {said}", property.name));
+        }
+        let of_runs = |property: &&Preserved| matches!(property.kind, PropertyKind::Ctl | PropertyKind::Ltl);
+        let is_fairness =
+            |property: &Property| matches!(property.kind, PropertyKind::Justice | PropertyKind::Compassion);
+        let concrete = &self.models[CONCRETE].program.properties;
+        if concrete.iter().any(is_fairness) && report.properties.iter().filter(of_runs).any(|one| one.form.is_ok()) {
+            lines.push(
+                "  note: formulas are about the fair runs of the concrete machine; `verify` tells whether it has one"
+                    .into(),
+            );
         }
         lines
     }
