@@ -117,8 +117,14 @@ fn tell(shell: &mut Shell, teller: &Teller<'_>, review: &Review, finding: &Findi
 fn summary(shell: &mut Shell, teller: &Teller<'_>, review: &Review) -> Result<(), Failure> {
     for (meta, outcome) in &review.outcomes {
         let findings = review.findings.iter().filter(|finding| finding.meta == *meta).count();
-        let reasons = match outcome {
-            MetaOutcome::Unknown => review.reasons.iter().map(|reason| teller.words.reason(reason)).collect(),
+        let computed = review.unclear.iter().filter(|(of, _)| of == meta).map(|(_, function)| {
+            let name = &teller.words.program.function(*function).name;
+            format!("initial values of {name} are computed, and too many to be listed")
+        });
+        let reasons: Vec<String> = match outcome {
+            MetaOutcome::Unknown => {
+                review.reasons.iter().map(|reason| teller.words.reason(reason)).chain(computed).collect()
+            }
             _ => Vec::new(),
         };
         let word = match outcome {

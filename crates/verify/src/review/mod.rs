@@ -9,6 +9,7 @@ mod locations;
 mod rules;
 mod values;
 
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use machine::{Location, Value};
@@ -124,6 +125,8 @@ pub struct Review {
     pub progress: Progress,
     /// Why not every state was explored; empty if every one was.
     pub reasons: Vec<Reason>,
+    /// Functions of which initial values are computed and too many to be listed, and the meta-properties that are unknown for that.
+    pub unclear: BTreeSet<(Meta, FunctionId)>,
 }
 
 /// Reviews the parts of a model in files that `own` accepts.
@@ -139,11 +142,11 @@ pub fn review(
     watch: &mut dyn FnMut(&Progress) -> bool,
 ) -> Result<Review, NoStart> {
     let survey = survey(program, options, false, watch)?;
-    let mut reviewer = Reviewer { model, program, survey, own, findings: Vec::new() };
+    let mut reviewer = Reviewer { model, program, survey, own, findings: Vec::new(), unclear: BTreeSet::new() };
     reviewer.rules();
     reviewer.values();
     reviewer.locations();
-    let Reviewer { survey, mut findings, .. } = reviewer;
+    let Reviewer { survey, mut findings, unclear, .. } = reviewer;
     // Where nothing happens, it says nothing that something does not.
     let nothing_seen = survey.reasons.iter().any(|reason| matches!(reason, Reason::Vacuous | Reason::Stepless));
     findings.retain(|finding| metas.contains(&finding.meta) && !nothing_seen);
@@ -154,13 +157,14 @@ pub fn review(
         }
         let found = findings.iter().any(|finding| finding.meta == meta);
         match (found, survey.is_complete()) {
+            (false, true) if unclear.iter().any(|(of, _)| *of == meta) => MetaOutcome::Unknown,
             (true, complete) if complete || meta.by_event() => MetaOutcome::Violated,
             (false, complete) if complete || !meta.by_event() => MetaOutcome::Holds,
             _ => MetaOutcome::Unknown,
         }
     };
     let outcomes = Meta::ALL.iter().filter(|meta| metas.contains(meta)).map(|meta| (*meta, outcome(*meta)));
-    Ok(Review { outcomes: outcomes.collect(), findings, progress: survey.progress, reasons: survey.reasons })
+    Ok(Review { outcomes: outcomes.collect(), findings, progress: survey.progress, reasons: survey.reasons, unclear })
 }
 
 struct Reviewer<'a> {
@@ -169,6 +173,7 @@ struct Reviewer<'a> {
     survey: Survey,
     own: &'a dyn Fn(FileId) -> bool,
     findings: Vec<Finding>,
+    unclear: BTreeSet<(Meta, FunctionId)>,
 }
 
 impl Reviewer<'_> {

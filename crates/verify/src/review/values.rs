@@ -2,7 +2,8 @@
 //!
 //! In: the values that occurred. An element is used if it is the value of some location, or a part of one: of a dynamic
 //! location in some state, of an input that a rule reads, of a static function without a definition. The initial values of a function
-//! that has more locations than can be listed are those that are written as its alternatives; if they are computed, they may be any.
+//! that has more locations than can be listed are those that are written as its alternatives; if they are computed, it is unknown
+//! whether what is missing is among them.
 //! LIMIT: domains with more elements, and growing ones, are skipped; derived functions are not considered.
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -32,13 +33,15 @@ impl Reviewer<'_> {
             }
             let span = function.span;
             let Some(elements) = self.values_of(function.codomain) else { continue };
-            let Some(begun) = self.written_initials(id) else { continue };
+            let begun = self.written_initials(id);
             let none = BTreeSet::new();
             let taken = taken.get(&id).unwrap_or(&none);
-            let is_taken = |value: &Value| taken.contains(value) || begun.contains(value);
+            let is_taken = |value: &Value| taken.contains(value) || begun.as_ref().is_some_and(|it| it.contains(value));
             let missing: Vec<Value> = elements.into_iter().filter(|value| !is_taken(value)).collect();
-            if !missing.is_empty() {
-                self.find(Meta::ValueTaken, Matter::NeverTaken(id, missing), span);
+            match begun {
+                _ if missing.is_empty() => {}
+                None => _ = self.unclear.insert((Meta::ValueTaken, id)),
+                Some(_) => self.find(Meta::ValueTaken, Matter::NeverTaken(id, missing), span),
             }
         }
     }
@@ -115,15 +118,13 @@ impl Reviewer<'_> {
             }
         }
         self.constants_of_statics(&mut used);
-        for index in 0..self.program.functions.len() {
-            let (id, function) = (FunctionId(index as u32), &self.program.functions[index]);
-            let begins = self.program.initials.iter().any(|initial| initial.function == id);
-            let begun = match begins {
-                true => self.written_initials(id).map(|values| values.into_iter().collect()),
-                false => continue,
-            };
-            let begun: Vec<Value> = begun.or_else(|| self.values_of(function.codomain)).unwrap_or_default();
-            begun.iter().for_each(|value| parts(value, &mut used));
+        let program = self.program;
+        let mut computed = Vec::new();
+        for initial in &program.initials {
+            match self.written_initials(initial.function) {
+                Some(begun) => begun.iter().for_each(|value| parts(value, &mut used)),
+                None => computed.push((Meta::ElementUsed, initial.function)),
+            }
         }
         let mut index = 0;
         while let Some(domain) = self.program.domains.get(index) {
@@ -140,7 +141,9 @@ impl Reviewer<'_> {
             }
             let Some(elements) = self.survey.elements(id, ELEMENTS) else { continue };
             let missing: Vec<Value> = elements.into_iter().filter(|element| !used.contains(element)).collect();
-            if !missing.is_empty() {
+            if !missing.is_empty() && !computed.is_empty() {
+                self.unclear.extend(&computed);
+            } else if !missing.is_empty() {
                 self.find(Meta::ElementUsed, Matter::Unused(id, missing), span);
             }
         }
