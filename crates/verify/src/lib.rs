@@ -24,6 +24,7 @@ mod report;
 mod request;
 pub mod review;
 pub mod runs;
+mod slots;
 pub mod solver;
 mod storage;
 pub mod survey;

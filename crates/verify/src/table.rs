@@ -7,12 +7,12 @@
 
 use explore::hash;
 
+use crate::slots::Slots;
+
 /// States in a chunk.
 const CHUNK: usize = 1 << 14;
 /// How many lookups are in progress at a time, so that their memory is fetched in parallel.
 const AHEAD: usize = 16;
-/// The largest load of the table.
-const FULL: (usize, usize) = (7, 8);
 /// Marks an occupied slot that contains a state itself.
 const OCCUPIED: u64 = 1 << 63;
 
@@ -22,8 +22,8 @@ pub struct Table {
     words: usize,
     chunks: Vec<Vec<u64>>,
     len: usize,
-    slots: Vec<u64>,
-    /// Set when the table may not grow further.
+    slots: Slots,
+    /// Set when the table may not grow further, or cannot, for want of memory.
     full: bool,
 }
 
@@ -33,7 +33,7 @@ impl Table {
 
     /// An empty set of states with this many words.
     pub fn new(words: usize) -> Table {
-        Table { words, chunks: Vec::new(), len: 0, slots: vec![0; 1 << 10], full: false }
+        Table { words, chunks: Vec::new(), len: 0, slots: Slots::default(), full: false }
     }
 
     /// How many states there are.
@@ -48,16 +48,12 @@ impl Table {
 
     /// The number of bytes it takes.
     pub fn bytes(&self) -> usize {
-        8 * self.slots.len() + self.chunks.iter().map(|chunk| 8 * chunk.capacity()).sum::<usize>()
+        self.slots.bytes() + self.chunks.iter().map(|chunk| 8 * chunk.capacity()).sum::<usize>()
     }
 
     /// The number of bytes it would take with this many states, at least as many as now.
     pub fn bytes_of(&self, len: usize) -> usize {
-        let mut slots = self.slots.len();
-        while (len + AHEAD) * FULL.1 > slots * FULL.0 {
-            slots += slots / 2;
-        }
-        8 * slots + len.div_ceil(CHUNK) * CHUNK * self.words * 8
+        8 * Slots::grown_for(self.slots.len(), len + AHEAD) + len.div_ceil(CHUNK) * CHUNK * self.words * 8
     }
 
     /// The states in the order of arrival.
@@ -103,13 +99,15 @@ impl Table {
         let mut hashes = [0; AHEAD];
         for batch in states.chunks(AHEAD * self.words) {
             // Growing in advance keeps slots valid within a batch.
-            if (self.len + AHEAD) * FULL.1 > self.slots.len() * FULL.0 {
-                self.grow();
+            if self.slots.is_full_with(self.len + AHEAD) && !self.grow() {
+                self.full = true;
+                batch.chunks_exact(self.words).for_each(|_| place(Table::MOST as u32));
+                continue;
             }
             let mut touched = 0;
             for (state, place) in batch.chunks_exact(self.words).zip(&mut hashes) {
                 *place = hash(state);
-                touched ^= self.slots[self.slot_of(*place)];
+                touched ^= self.slots.get(self.slot_of(*place));
             }
             std::hint::black_box(touched);
             for (state, hash) in batch.chunks_exact(self.words).zip(&hashes) {
@@ -124,7 +122,7 @@ impl Table {
 
     #[inline]
     fn slot_of(&self, hash: u64) -> usize {
-        ((u128::from(hash) * self.slots.len() as u128) >> 64) as usize
+        slot_among(hash, self.slots.len())
     }
 
     // The inner loop of a search: a function call here would cost as much as a lookup.
@@ -134,27 +132,27 @@ impl Table {
         if let [state] = state {
             let entry = state | OCCUPIED;
             loop {
-                let found = self.slots[slot];
+                let found = self.slots.get(slot);
                 if found == entry {
                     return (false, 0);
                 }
                 if found == 0 {
                     break;
                 }
-                slot = if slot + 1 == self.slots.len() { 0 } else { slot + 1 };
+                slot = self.slots.after(slot);
             }
             return self.add(slot, entry, &[*state]);
         }
         let mark = hash << 32;
         loop {
-            let found = self.slots[slot];
+            let found = self.slots.get(slot);
             if found == 0 {
                 break;
             }
             if found & !0xffff_ffff == mark && self.state((found as u32) as usize - 1) == state {
                 return (false, found as u32 - 1);
             }
-            slot = if slot + 1 == self.slots.len() { 0 } else { slot + 1 };
+            slot = self.slots.after(slot);
         }
         self.add(slot, mark | (self.len as u64 + 1), state)
     }
@@ -165,7 +163,7 @@ impl Table {
             self.full = true;
             return (false, Table::MOST as u32);
         }
-        self.slots[slot] = entry;
+        self.slots.set(slot, entry);
         if self.len / CHUNK == self.chunks.len() {
             self.chunks.push(Vec::with_capacity(CHUNK * self.words));
         }
@@ -174,24 +172,38 @@ impl Table {
         (true, self.len as u32 - 1)
     }
 
+    /// `false` if there is no memory.
     #[cold]
-    fn grow(&mut self) {
-        let wider = vec![0; self.slots.len() + self.slots.len() / 2];
-        drop(std::mem::replace(&mut self.slots, wider));
-        for index in 0..self.len {
-            let state = self.state(index);
-            let hash = hash(state);
-            let entry = match state {
-                [state] => state | OCCUPIED,
-                _ => hash << 32 | (index as u64 + 1),
-            };
-            let mut slot = self.slot_of(hash);
-            while self.slots[slot] != 0 {
-                slot = if slot + 1 == self.slots.len() { 0 } else { slot + 1 };
-            }
-            self.slots[slot] = entry;
+    fn grow(&mut self) -> bool {
+        let len = Slots::grown_for(self.slots.len(), self.len + AHEAD);
+        if self.words == 1 {
+            return self.slots.grow(len, |entry, len| slot_among(hash(&[entry & !OCCUPIED]), len));
         }
+        // An entry has only a part of its hash, and states are listed in another order.
+        if !self.slots.clear(len) {
+            return false;
+        }
+        let mut hashes = [0; AHEAD];
+        for first in (0..self.len).step_by(AHEAD) {
+            let batch = first..self.len.min(first + AHEAD);
+            let mut touched = 0;
+            for (index, place) in batch.clone().zip(&mut hashes) {
+                *place = hash(self.state(index));
+                touched ^= self.slots.get(self.slot_of(*place));
+            }
+            std::hint::black_box(touched);
+            for (index, hash) in batch.zip(hashes) {
+                self.slots.put(self.slot_of(hash), hash << 32 | (index as u64 + 1));
+            }
+        }
+        true
     }
+}
+
+/// The slot of a hash among so many.
+#[inline]
+fn slot_among(hash: u64, slots: usize) -> usize {
+    ((u128::from(hash) * slots as u128) >> 64) as usize
 }
 
 #[cfg(test)]

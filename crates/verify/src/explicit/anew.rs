@@ -26,7 +26,7 @@ type Place = (u8, u32);
 /// The same shards as another explorer packs their states.
 ///
 /// # Errors
-/// The explorers have other fields, or the states are not stored as they are.
+/// The explorers have other fields, the states are not stored as they are, or there is no memory for all of them.
 pub(crate) fn packed_anew(from: &Explorer, to: &mut Explorer, shards: Vec<Shard>) -> Result<Vec<Shard>, Unlike> {
     let tables: Option<Vec<&Table>> = shards.iter().map(|shard| table(&shard.store)).collect();
     let tables = tables.ok_or(Unlike)?;
@@ -56,6 +56,9 @@ pub(crate) fn packed_anew(from: &Explorer, to: &mut Explorer, shards: Vec<Shard>
         if level < depth {
             levels.iter_mut().zip(&stored).for_each(|(levels, table)| levels.push(table.len()));
         }
+    }
+    if stored.iter().any(Table::is_full) {
+        return Err(Unlike);
     }
     let mut edges = moved_edges(&shards, &places, &expanded);
     let mut moved = Vec::with_capacity(count);

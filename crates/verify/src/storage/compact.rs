@@ -9,14 +9,13 @@
 
 use std::collections::VecDeque;
 
+use crate::slots::Slots;
 use crate::storage::fingerprint::{Fingerprint, PRIME};
 
 /// States in a chunk.
 const CHUNK: usize = 1 << 12;
 /// How many lookups are in progress at a time.
 const AHEAD: usize = 16;
-/// The largest load of the hash table.
-const FULL: (usize, usize) = (7, 8);
 /// The bits set for each state.
 const BITS: u64 = 3;
 
@@ -32,13 +31,15 @@ pub(crate) struct Compact {
     /// How many chunks were dropped before these.
     forgotten: usize,
     len: usize,
+    /// There was no memory for more.
+    full: bool,
 }
 
 /// What is stored of all states.
 #[derive(Debug)]
 enum Seen {
     /// Hashes in an open-addressed table, each plus one; 0 marks an empty slot.
-    Hashes { hash: Fingerprint, slots: Vec<u64> },
+    Hashes { hash: Fingerprint, slots: Slots },
     /// Bits of an array, and how many are set; two hashes determine all bits of a state (A. Kirsch, M. Mitzenmacher,
     /// *Less hashing, same performance*, 2006).
     Bits { hashes: [Fingerprint; 2], array: Vec<u64>, set: u64, omitted: f64 },
@@ -47,8 +48,8 @@ enum Seen {
 impl Compact {
     /// An empty set that stores hashes of states with this many words.
     pub fn hashes(words: usize, seed: u64) -> Compact {
-        let seen = Seen::Hashes { hash: Fingerprint::new(words, seed), slots: vec![0; 1 << 10] };
-        Compact { words, more: 0, seen, window: VecDeque::new(), forgotten: 0, len: 0 }
+        let seen = Seen::Hashes { hash: Fingerprint::new(words, seed), slots: Slots::default() };
+        Compact { words, more: 0, seen, window: VecDeque::new(), forgotten: 0, len: 0, full: false }
     }
 
     /// An empty set that stores bits in an array of this many bytes, for states with this many words.
@@ -56,7 +57,7 @@ impl Compact {
         let hashes = [Fingerprint::new(words, seed), Fingerprint::new(words, !seed)];
         let array = vec![0; (bytes / 8).max(1) as usize];
         let seen = Seen::Bits { hashes, array, set: 0, omitted: 0.0 };
-        Compact { words, more: 0, seen, window: VecDeque::new(), forgotten: 0, len: 0 }
+        Compact { words, more: 0, seen, window: VecDeque::new(), forgotten: 0, len: 0, full: false }
     }
 
     /// The same set, in which each state carries additional words.
@@ -69,12 +70,17 @@ impl Compact {
         self.len
     }
 
+    /// Whether no more states can be kept, for want of memory.
+    pub fn is_full(&self) -> bool {
+        self.full
+    }
+
     pub fn bytes(&self) -> usize {
         let seen = match &self.seen {
-            Seen::Hashes { slots, .. } => slots.len(),
-            Seen::Bits { array, .. } => array.len(),
+            Seen::Hashes { slots, .. } => slots.bytes(),
+            Seen::Bits { array, .. } => 8 * array.len(),
         };
-        8 * seen + self.window.iter().map(|chunk| 8 * chunk.capacity()).sum::<usize>()
+        seen + self.window.iter().map(|chunk| 8 * chunk.capacity()).sum::<usize>()
     }
 
     #[inline]
@@ -108,9 +114,13 @@ impl Compact {
         let mut hashes = [(0, 0); AHEAD];
         for batch in items.chunks(AHEAD * stride) {
             if let Seen::Hashes { slots, .. } = &mut self.seen
-                && (self.len + AHEAD) * FULL.1 > slots.len() * FULL.0
+                && slots.is_full_with(self.len + AHEAD)
             {
-                grow(slots);
+                let len = Slots::grown_for(slots.len(), self.len + AHEAD);
+                if !slots.grow(len, |entry, len| place(entry - 1, len as u64) as usize) {
+                    self.full = true;
+                    return;
+                }
             }
             for (item, hashes) in batch.chunks_exact(stride).zip(&mut hashes) {
                 *hashes = self.seen.begin(&item[..words]);
@@ -152,7 +162,7 @@ impl Seen {
         match self {
             Seen::Hashes { hash, slots } => {
                 let hash = hash.of(state);
-                std::hint::black_box(slots[place(hash, slots.len() as u64) as usize]);
+                std::hint::black_box(slots.get(place(hash, slots.len() as u64) as usize));
                 (hash, 0)
             }
             Seen::Bits { hashes: [first, second], array, .. } => {
@@ -217,25 +227,17 @@ fn bit(hashes: (u64, u64), index: u64, words: usize) -> u64 {
 
 /// Puts an entry into its slot; `false` if it is there already.
 #[inline]
-fn put(slots: &mut [u64], entry: u64) -> bool {
+fn put(slots: &mut Slots, entry: u64) -> bool {
     let mut slot = place(entry - 1, slots.len() as u64) as usize;
     loop {
-        match slots[slot] {
+        match slots.get(slot) {
             0 => break,
             found if found == entry => return false,
-            _ => slot = if slot + 1 == slots.len() { 0 } else { slot + 1 },
+            _ => slot = slots.after(slot),
         }
     }
-    slots[slot] = entry;
+    slots.set(slot, entry);
     true
-}
-
-#[cold]
-fn grow(slots: &mut Vec<u64>) {
-    let wider = vec![0; slots.len() + slots.len() / 2];
-    for entry in std::mem::replace(slots, wider).into_iter().filter(|entry| *entry != 0) {
-        put(slots, entry);
-    }
 }
 
 #[cfg(test)]

@@ -79,7 +79,8 @@ impl Store {
     pub fn is_full(&self) -> bool {
         match self {
             Store::Exact(table) => table.is_full(),
-            Store::Spilled(_) | Store::Compact(_) => false,
+            Store::Spilled(spilled) => spilled.is_full(),
+            Store::Compact(compact) => compact.is_full(),
         }
     }
 

@@ -27,6 +27,8 @@ pub(crate) struct Spilled {
     table: Table,
     out: Option<Out>,
     lost: bool,
+    /// There was no memory for a state.
+    full: bool,
 }
 
 /// The states in files.
@@ -47,7 +49,7 @@ impl Spilled {
     /// An empty set of states with this many words, with this many bytes of memory.
     pub fn new(words: usize, disk: &Arc<dyn Disk>, room: u64) -> Spilled {
         let room = usize::try_from(room).unwrap_or(usize::MAX);
-        Spilled { words, disk: Arc::clone(disk), room, table: Table::new(words), out: None, lost: false }
+        Spilled { words, disk: Arc::clone(disk), room, table: Table::new(words), out: None, lost: false, full: false }
     }
 
     /// How many states are known to be new.
@@ -58,6 +60,11 @@ impl Spilled {
     /// How many states have arrived of which it is unknown whether they are new.
     pub fn pending(&self) -> usize {
         self.out.as_ref().map_or(0, |_| self.table.len())
+    }
+
+    /// Whether no more states can be kept, for want of memory.
+    pub fn is_full(&self) -> bool {
+        self.full
     }
 
     /// Whether a file failed, so that states may be missing.
@@ -112,6 +119,7 @@ impl Spilled {
                 None => self.table.insert_all(stretch, new),
                 Some(_) => self.table.insert_all(stretch, &mut |_| {}),
             }
+            self.full |= self.table.is_full();
         }
     }
 
