@@ -55,7 +55,7 @@ pub use flow::{Origin, Target, Transition, transitions};
 pub use lights::{Light, Lights};
 pub use link::Link;
 pub use note::{Note, Texts};
-pub use obligation::{Answered, Block, Obligation, Observed, obligations};
+pub use obligation::{Answered, Block, Obligation, Observed, Only, obligations};
 pub use read::{Loaded, load, load_beside, read};
 pub use stand::{Stand, stands};
 pub use subject::{NoPictures, NotDrawn, Part, Pictures, Subject, subjects};

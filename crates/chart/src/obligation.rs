@@ -65,6 +65,17 @@ pub struct Block {
     pub left: String,
     /// What it was left with, if it answers.
     pub answer: Option<String>,
+    /// The exit of the block, if it answers and has only one: of the other answer the machine stays in the block.
+    pub only: Option<Only>,
+}
+
+/// The only exit of a guard.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Only {
+    /// The answer that it is for.
+    pub branch: bool,
+    /// What the guard in its place asks, as the chart writes it.
+    pub asked: String,
 }
 
 /// An input that nothing reads any more once its guard is replaced: what the pattern answers is its value.
@@ -133,14 +144,14 @@ impl Obligation {
         Ok(format!("{}{instance}{}", &text[..start], &text[end - tail..]))
     }
 
-    /// The coupling of the chart's model with that of the replaced chart, which is given. `observed` are the functions that are to be
+    /// The coupling of the chart's model with that of the replaced chart, which is the second one. `observed` are the functions that are to be
     /// the same, `answered` is the input that the answer is the value of, `note` is what both models note of the guard.
     ///
     /// # Errors
     /// A clause that says why there is none.
     pub fn coupling(
         &self,
-        replaced: &Chart,
+        [chart, replaced]: [&Chart; 2],
         observed: &[Observed],
         answered: Option<&Answered>,
         note: Option<&Note>,
@@ -195,7 +206,7 @@ impl Obligation {
         let _ = writeln!(text, "couple {busy};");
         text.extend(note.map(|note| note.coupled(&quiet)));
         if let Some(answered) = answered {
-            let block = self.block(replaced).filter(|_| answered.is_single);
+            let block = self.block(chart, replaced).filter(|_| answered.is_single);
             let exits = [true, false].map(|branch| drawn.branch(id, branch).is_some());
             let _ = match block.and_then(|block| block.said(exits)) {
                 Some(term) => writeln!(text, "input abstract.{} = {term};", answered.name),
@@ -207,9 +218,10 @@ impl Obligation {
 }
 
 impl Obligation {
-    /// The block in the place of the shape, in a chart in which it is replaced. None if there is none, since the pattern is done in one
+    /// The block in the place of the shape of `chart`, in a chart in which it is replaced. None if there is none, since the pattern is done in one
     /// step, or if there are many, one for each value of a parameter.
-    pub fn block(&self, replaced: &Chart) -> Option<Block> {
+    pub fn block(&self, chart: &Chart, replaced: &Chart) -> Option<Block> {
+        let (given, guard) = self.found(chart)?;
         let (machine, _) = self.found(replaced)?;
         let (id, shape) = machine.numbered().find(|(_, shape)| shape.name == self.shape)?;
         let pattern = replaced.pattern_of(shape)?;
@@ -217,18 +229,30 @@ impl Obligation {
             return None;
         }
         let (control, value) = (control_location(machine)?, state_value(replaced, machine, id));
+        let only = match [true, false].map(|branch| machine.branch(id, branch).is_some()) {
+            [yes, no] if yes != no && pattern.answers() => Some(Only { branch: yes, asked: call(given, guard) }),
+            _ => None,
+        };
         Some(Block {
             at: format!("{control} = {value}"),
             left: format!("isUndef({})", inner_control(replaced, shape)?),
             answer: pattern.answers().then(|| answer_location(pattern)),
+            only,
         })
     }
 }
 
 impl Obligation {
+    /// Whether there are many blocks in the place of the shape, one for each value of a parameter.
+    pub fn is_for_each(&self, chart: &Chart, replaced: &Chart) -> bool {
+        let Some((machine, _)) = self.found(replaced) else { return false };
+        let found = machine.numbered().find(|(_, shape)| shape.name == self.shape);
+        found.is_some_and(|(id, _)| is_block(replaced, machine, id)) && self.block(chart, replaced).is_none()
+    }
+
     /// What both models note of the guard, if the block in its place is one. No name of a note stands in these texts.
-    pub fn note(&self, replaced: &Chart, texts: [&str; 2]) -> Option<Note> {
-        self.block(replaced)?.answer?;
+    pub fn note(&self, chart: &Chart, replaced: &Chart, texts: [&str; 2]) -> Option<Note> {
+        self.block(chart, replaced)?.answer?;
         Note::about(&self.machine, &self.shape, texts)
     }
 }

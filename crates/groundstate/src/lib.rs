@@ -61,7 +61,7 @@ pub use fingerprint::{fingerprint, text_fingerprint};
 pub use kind::{Kind, chart_of, has_ending, model_of};
 pub use overlay::{Overlay, Said};
 pub use owed::{Owed, OwedProof, owed};
-pub use owed_leaving::{Leaving, Stuck, leaving};
+pub use owed_leaving::{Leaving, Stuck, StuckAt, leaving};
 pub use proof_on_part::{PartQuestion, PartSearch, ProofOnPart, SystemParts};
 pub use test::{SeededChoices, Suite, Tested, own_files};
 pub use verified_system::{

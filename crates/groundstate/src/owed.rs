@@ -32,6 +32,8 @@ pub struct OwedProof {
     pub observed: Vec<String>,
     /// The machine in the place of the shape, if it is one block that takes steps.
     pub block: Option<Block>,
+    /// There is one such block for each value of a parameter: whether it can be left is not looked at.
+    pub is_for_each: bool,
     /// The control states of the chart's machines.
     pub stands: Vec<Stand>,
 }
@@ -65,7 +67,7 @@ fn proof(
     let in_place = "the machine in its place";
     let (replaced, concrete) = built(root, &texts(&text), model, loader, in_place)?;
     let answered = obligation.asks(chart).and_then(|name| answered(&name, &given.program, &concrete.program));
-    let note = obligation.note(&replaced, [&root.text, &model.text]);
+    let note = obligation.note(chart, &replaced, [&root.text, &model.text]);
     let (given, concrete) = match &note {
         None => (given, concrete),
         Some(note) => {
@@ -75,12 +77,19 @@ fn proof(
             (given, built(root, &other, model, loader, in_place)?.1)
         }
     };
-    let coupling = obligation.coupling(&replaced, &observed, answered.as_ref(), note.as_ref())?;
+    let coupling = obligation.coupling([chart, &replaced], &observed, answered.as_ref(), note.as_ref())?;
     let coupling =
         SourceFile::new(format!("<{} by {}>", obligation.shape, obligation.by.as_deref().unwrap_or("")), coupling);
     let observed = observed.into_iter().map(|function| function.name).collect();
-    let block = obligation.block(&replaced);
-    Ok(OwedProof { models: [given, concrete], coupling, observed, block, stands: stands(chart) })
+    let mut block = obligation.block(chart, &replaced);
+    if let Some(block) = &mut block
+        && answered.is_some()
+    {
+        // What the pattern answers is what was asked: without an exit for it, the chart's machine waits, too.
+        block.only = None;
+    }
+    let is_for_each = obligation.is_for_each(chart, &replaced);
+    Ok(OwedProof { models: [given, concrete], coupling, observed, block, is_for_each, stands: stands(chart) })
 }
 
 /// A chart and the model that is built from it; `with` says what is new in it.

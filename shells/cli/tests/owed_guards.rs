@@ -53,7 +53,8 @@ fn prepare(folder: &Path, chart: &str, rules: &[(&str, &str)]) {
     };
     let _ = fs::remove_file(folder.join("Gate.asm"));
     // What the chart's links name comes first.
-    build(&["{pieces < 2}", "{pieces < 1}"].iter().fold(chart.to_string(), |chart, link| chart.replace(link, "")));
+    let links = ["{not (pieces < 2)}", "{pieces < 2}", "{pieces < 1}"];
+    build(&links.iter().fold(chart.to_string(), |chart, link| chart.replace(link, "")));
     let model = fs::read_to_string(folder.join("Gate.asm")).expect("the model");
     let mut model = model
         .replacen("signature:\n", "signature:\n\tdomain Count subsetof Integer\n\tcontrolled pieces: Count\n", 1)
@@ -188,7 +189,7 @@ fn guards_of_machines_with_parameters_and_of_composite_states_are_replaced_too()
         fs::write(folder.join("Gate.chart"), &over).expect("it is written");
         let (code, text) = said(folder, &["chart", "build", "Gate.chart"]);
         assert_eq!(code, Some(0), "{text}");
-        check(folder, &PROVE, 0, &["proved (", "observed phase)"]);
+        check(folder, &PROVE, 0, &["proved (", "observed phase; whether it can always be left was not looked at)"]);
     });
     let composite = CHART
         .replace("\tstate open", "\tendstate\n\tstate open")
@@ -205,6 +206,37 @@ fn guards_of_machines_with_parameters_and_of_composite_states_are_replaced_too()
         check(folder, &PROVE, 0, &["proved (", "observed pieces, phase)"]);
         prepare(folder, &composite, &[("r_count", COUNT), ("r_note", COUNT)]);
         check(folder, &PROVE, 1, &["refuted"]);
+    });
+}
+
+/// Of a guard with one exit the other answer is waiting, which the chart's machine does only where its guard says so.
+#[test]
+fn an_answer_without_an_exit_is_waiting_only_where_the_guard_waits() {
+    let over = |asked: &str, branch: &str, few: &str| {
+        format!(
+            "chart Gate\n\nmachine gate \"Gate\"\n\tcontrol phase\n\tinitial state shut\n\tstate open\n\
+             \tguard asked \"Asked\" {{{asked}}} to refine by asking\n\taction count \"COUNT\"\n\
+             \tshut -> asked {branch} -> open\n\topen -> count -> shut\nendmachine\n\n\
+             pattern asking \"Look\"\n\tcontrol ask\n\tstate first\n\tguard few {{{few}}}\n\
+             \tenter -> first -> few yes -> exit yes\n\tfew no -> exit no\nendpattern\n"
+        )
+    };
+    let rules = [("r_count", COUNT)];
+    let never = "refuted, there is a state from which it is never left, though `pieces < 2` is always true";
+    temporary(|folder| {
+        // With two pieces, both wait for ever.
+        prepare(folder, &over("pieces < 2", "yes", "pieces < 2"), &rules);
+        check(folder, &PROVE, 0, &["proved (", "observed pieces, phase)"]);
+        // With one piece, the guard says yes and the pattern no.
+        prepare(folder, &over("pieces < 2", "yes", "pieces < 1"), &rules);
+        check(folder, &PROVE, 1, &[never]);
+        check(folder, &["--prove", "--allow-waiting"], 1, &[never]);
+        // The exit may be that of the other answer.
+        prepare(folder, &over("not (pieces < 2)", "no", "not (pieces < 2)"), &rules);
+        check(folder, &PROVE, 0, &["proved ("]);
+        prepare(folder, &over("not (pieces < 2)", "no", "pieces < 2"), &rules);
+        let never = "refuted, there is a state from which it is never left, though `not (pieces < 2)` is always false";
+        check(folder, &PROVE, 1, &[never]);
     });
 }
 

@@ -7,7 +7,7 @@ use std::path::Path;
 use groundstate::refine::{Coupling, Options, Verdict, refine};
 use groundstate::tell::{Refinements, WAITS};
 use groundstate::verify::Progress;
-use groundstate::{Assumptions, Leaving, Loaded, Owed, OwedProof, Stuck, assume, leaving};
+use groundstate::{Assumptions, Leaving, Loaded, Owed, OwedProof, Stuck, StuckAt, assume, leaving};
 use syntax::SourceFile;
 
 use crate::failure::Failure;
@@ -54,6 +54,8 @@ pub enum Told {
         never: Vec<bool>,
         /// The machine never comes to it.
         idle: bool,
+        /// Whether it can always be left was not looked at.
+        unasked: bool,
     },
     /// It was refuted.
     Refuted {
@@ -73,7 +75,7 @@ impl Told {
             Told::Open(why) => format!("open, {why}"),
             Told::Refined { command } => format!("refined, not proved; `{command}` looks"),
             Told::Differs => "refined, not proved: chart and model differ".to_string(),
-            Told::Proved { pairs, observed, waiting, assumed, never, idle } => {
+            Told::Proved { pairs, observed, waiting, assumed, never, idle, unasked } => {
                 let mut taken = assumed.clone();
                 taken.extend(waiting.then(|| "that waiting ends".to_string()));
                 let waiting = if taken.is_empty() { String::new() } else { format!(", assumed {}", taken.join(", ")) };
@@ -84,8 +86,9 @@ impl Told {
                     [] => "",
                     _ => "; it is never asked",
                 };
+                let unasked = if *unasked { "; whether it can always be left was not looked at" } else { "" };
                 format!(
-                    "proved ({}, observed {}{waiting}{never})",
+                    "proved ({}, observed {}{waiting}{never}{unasked})",
                     crate::check::plural(*pairs as usize, "pair"),
                     observed.join(", ")
                 )
@@ -197,18 +200,23 @@ fn proved(shell: &Shell, file: &Path, proof: &OwedProof, asked: Asked) -> Told {
                 }
             }
             let (pairs, observed) = (report.progress.pairs, proof.observed.clone());
-            let Leaving { stuck, never, idle, open } = left(shell, proof, file.as_ref(), asked);
+            let Leaving { stuck, never, idle, open, unasked } = left(shell, proof, file.as_ref(), asked);
             match stuck {
                 // All that was taken for granted is that waiting ends, and here it cannot.
-                Some(Stuck { at: None, run }) => {
-                    Told::Refuted { why: "there is a state from which it is never left".to_string(), report: run }
-                }
-                Some(Stuck { at: Some((machine, state)), run }) => {
-                    let why = format!("there is a state from which {machine} never leaves {state}");
+                Some(Stuck { at, run }) => {
+                    let why = match at {
+                        StuckAt::Block => "there is a state from which it is never left".to_string(),
+                        StuckAt::Asked { asked, branch } => {
+                            format!("there is a state from which it is never left, though `{asked}` is always {branch}")
+                        }
+                        StuckAt::State { machine, value } => {
+                            format!("there is a state from which {machine} never leaves {value}")
+                        }
+                    };
                     Told::Refuted { why, report: run }
                 }
                 None if open => Told::Unknown("whether its machines can always go on was not decided".to_string()),
-                None => Told::Proved { pairs, observed, waiting: asked.waiting, assumed, never, idle },
+                None => Told::Proved { pairs, observed, waiting: asked.waiting, assumed, never, idle, unasked },
             }
         }
         Verdict::DoesNot(refutation) => {
