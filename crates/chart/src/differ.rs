@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 
 use syntax::Span;
 
-use crate::symbolic::{Effect, Guarded, Path};
+use crate::symbolic::{Effect, Guarded, Path, joined};
 
 /// LIMIT: how many cases of one effect are distinguished; beyond that it counts as a difference.
 const CASES: usize = 100_000;
@@ -13,17 +13,30 @@ const CASES: usize = 100_000;
 /// The paths that lead to each effect, and its place.
 pub(crate) type ByEffect = BTreeMap<String, (Vec<Path>, Option<Span>)>;
 
-/// Groups effects with the paths that lead to them; staying in the control state counts as no effect.
+/// Groups effects with the paths that lead to them. Staying in the control state counts as no effect where nothing else becomes of the
+/// control variable; elsewhere the two are inconsistent.
 pub(crate) fn by_effect(effects: &[Guarded], control: &str, origin: &str) -> ByEffect {
     let mut found = ByEffect::new();
+    let is_control = |effect: &Effect, stays: bool| match effect {
+        Effect::Update { location, value, .. } => location == control && (value == origin) == stays,
+        Effect::Rule(_) => false,
+    };
     for guarded in effects {
+        let paths = if is_control(&guarded.effect, true) {
+            let leaving = effects.iter().filter(|other| is_control(&other.effect, false));
+            leaving.filter_map(|other| joined(&guarded.path, &other.path)).collect()
+        } else {
+            vec![guarded.path.clone()]
+        };
+        if paths.is_empty() {
+            continue;
+        }
         let key = match &guarded.effect {
-            Effect::Update { location, value, .. } if location == control && value == origin => continue,
             Effect::Update { location, value, .. } => format!("{location} := {value}"),
             Effect::Rule(text) => text.clone(),
         };
         let entry = found.entry(key).or_default();
-        entry.0.push(guarded.path.clone());
+        entry.0.extend(paths);
         entry.1.get_or_insert(guarded.span);
     }
     found

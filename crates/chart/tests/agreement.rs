@@ -92,6 +92,36 @@ fn a_machine_begins_where_its_chart_does() {
     assert_eq!(differs("skip", ""), one(Severity::Warning, idle));
 }
 
+/// Where the control variable is set to what it is and to something else, no step can be made.
+#[test]
+fn staying_counts_as_nothing_unless_something_else_leaves() {
+    let drawn = chart(
+        "chart Lamp machine lamp {r_lamp} control {light} initial state off {OFF} state on {ON} guard pressed {pressed}
+         off -> pressed yes -> on on -> pressed pressed no -> off endmachine",
+    );
+    let differs = |rule: &str| -> Vec<String> {
+        let text = format!(
+            "asm Lamp import StandardLibrary signature: enum domain Light = {{OFF | ON}} controlled light: Light
+             monitored pressed: Boolean definitions:
+             rule r_lamp = par if light = OFF and pressed then light := ON endif
+             if light = ON and not pressed then light := OFF endif {rule} endpar
+             main rule r_Main = r_lamp[] default init s0: function light = OFF"
+        );
+        let probed = probed(&drawn, &text).expect("it parses");
+        let faults = chart::check(&drawn, &probed, &checked("Lamp.asm", &probed.text), &mut NoSolver);
+        faults.iter().map(|fault| fault.message.clone()).collect()
+    };
+    let says = |origin: &str, case: &str| {
+        format!("in {origin}, the rule does `light := {origin}` where {case}, the chart does not")
+    };
+    let (off, on) = (says("OFF", "pressed"), says("ON", "not (pressed)"));
+    assert_eq!(differs("if pressed and light = ON then light := ON endif"), [""; 0]);
+    assert_eq!(differs("if not pressed and light = OFF then light := light endif"), [""; 0]);
+    assert_eq!(differs("if light = OFF then light := OFF endif"), [off.as_str()]);
+    assert_eq!(differs("if not pressed then light := light endif"), [on.as_str()]);
+    assert_eq!(differs("light := light"), [off, on]);
+}
+
 #[test]
 fn a_change_of_the_library_is_found() {
     let chart = chart(&text("PatternMachines.chart"));

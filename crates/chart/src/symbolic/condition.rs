@@ -12,7 +12,7 @@ use super::{Bound, Explorer, Frame};
 pub(crate) type Path = Vec<(String, bool)>;
 
 /// A path followed by another; `None` if they contradict each other.
-pub(super) fn joined(path: &Path, rest: &Path) -> Option<Path> {
+pub(crate) fn joined(path: &Path, rest: &Path) -> Option<Path> {
     let mut out = path.clone();
     for (atom, holds) in rest {
         match out.iter().find(|(known, _)| known == atom) {

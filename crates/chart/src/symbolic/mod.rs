@@ -24,7 +24,7 @@ use model::{
 };
 use syntax::Span;
 
-pub(crate) use condition::{Path, consistent};
+pub(crate) use condition::{Path, consistent, joined};
 
 /// How deeply calls are followed.
 const MAX_DEPTH: usize = 64;
