@@ -88,6 +88,47 @@ fn each_fault_has_a_page_whose_example_shows_it() {
     }
 }
 
+/// A model that exists runs what is drawn once it has been built again.
+#[test]
+fn a_changed_chart_changes_what_the_model_runs() {
+    let lamp = "chart L\nmachine lamp\n\tcontrol light\n\tinitial state off\n\tstate on\n\tguard pressed\n\
+                \toff -> pressed yes -> on\n\ton -> off\nendmachine\n";
+    let fan =
+        "machine fan ($r in Room)\n\tcontrol speed\n\tinitial state slow\n\tstate fast\n\tslow -> fast\nendmachine\n";
+    let bulb = lamp.replace("machine lamp", "machine bulb");
+    let first = built(lamp);
+    let again = |code: &str, text: &str| {
+        let rebuilt = build(&chart(code).0, &Known::default(), Some(text)).expect("the file has no faults").text;
+        assert_eq!(build(&chart(code).0, &Known::default(), Some(&rebuilt)).expect("no faults").text, rebuilt);
+        rebuilt.split_once("\tmain rule").expect("a main rule").1.split_whitespace().collect::<Vec<_>>().join(" ")
+    };
+    let off = "default init s0: function light = OFF";
+    assert_eq!(again(lamp, &first), format!("r_Main = r_lamp[] {off}"));
+    assert_eq!(again(&bulb, &first), format!("r_Main = r_bulb[] {off}"));
+    let on = lamp.replace("initial state off", "state off").replace("state on", "initial state on");
+    assert_eq!(again(&on, &first), "r_Main = r_lamp[] default init s0: function light = ON");
+    let both = "par r_lamp[] forall $r in Room with true do r_fan[$r] endpar";
+    let slow = "function speed($r in Room) = SLOW";
+    assert_eq!(again(&format!("{lamp}{fan}"), &first), format!("r_Main = {both} {off} {slow}"));
+    // What is written by hand stays: other rules that are called, a main rule that does more, a value that is computed.
+    let with = |main: &str, value: &str| {
+        let rules = "rule r_reset = if wanted then light := OFF endif\n\trule r_all = r_lamp[]\n\tmain rule r_Main =";
+        let text = first.replace("main rule r_Main =\n\t\tr_lamp[]", &format!("{rules} {main}"));
+        text.replace("function light = OFF", &format!("function light = {value}"))
+    };
+    let reset = with("par r_lamp[] // first\n r_reset[] endpar", "OFF");
+    assert_eq!(again(&bulb, &reset), format!("r_Main = par r_bulb[] // first r_reset[] endpar {off}"));
+    assert_eq!(again(lamp, &with("r_all[]", "OFF")), format!("r_Main = r_all[] {off}"));
+    assert_eq!(
+        again(&bulb, &with("seq r_lamp[] skip endseq", "OFF")),
+        format!("r_Main = seq r_lamp[] skip endseq {off}")
+    );
+    let chosen = again(&on, &with("r_lamp[]", "chooseone({OFF, ON})"));
+    assert_eq!(chosen, "r_Main = r_lamp[] default init s0: function light = chooseone({OFF, ON})");
+    let nothing = first.split("default init").next().expect("the rules").to_string();
+    assert_eq!(again(lamp, &nothing), format!("r_Main = r_lamp[] {off}"));
+}
+
 #[test]
 fn what_is_written_by_hand_stays() {
     let before = Page::spec("charts");

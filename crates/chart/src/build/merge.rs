@@ -9,14 +9,22 @@ use syntax::ast::trimmed_range;
 use syntax::{Diagnostic, FileId, Severity, SyntaxKind, SyntaxKind::*, SyntaxNode};
 
 use super::module::{Item, Parts, quoted};
-use super::observed;
+use super::{observed, running};
 use crate::chart::Chart;
 
 /// One change of the text.
-struct Edit {
-    start: usize,
-    end: usize,
-    text: String,
+pub(super) struct Edit {
+    pub(super) start: usize,
+    pub(super) end: usize,
+    pub(super) text: String,
+}
+
+impl Edit {
+    /// A text in the place of a node.
+    pub(super) fn replacing(node: &SyntaxNode, text: String) -> Edit {
+        let range = trimmed_range(node);
+        Edit { start: range.start().into(), end: range.end().into(), text }
+    }
 }
 
 /// Merges the parts into a text; also returns the names that the text declared before.
@@ -37,20 +45,25 @@ pub(super) fn into(text: &str, chart: &Chart, parts: &Parts) -> Result<(String, 
         forgotten(&signature, parts, &mut edits);
         for (kind, new) in [(MAIN_RULE, &parts.main), (INIT, &parts.init)] {
             if let (Some(node), Some(new)) = (section(&root, kind), new) {
-                let range = trimmed_range(&node);
-                edits.push(Edit {
-                    start: range.start().into(),
-                    end: range.end().into(),
-                    text: new.trim_end().to_string(),
-                });
+                edits.push(Edit::replacing(&node, new.trim_end().to_string()));
             }
         }
+    } else {
+        running::calls(&root, &parts.running, &mut edits);
+        running::starts(&root, &parts.starts, &mut edits);
     }
     if let Some(definitions) = &definitions {
         if parts.owns {
             unbounded(definitions, parts, &mut edits);
         }
         items(definitions, &parts.definitions, &mut edits);
+    }
+    if section(&root, MAIN_RULE).is_some() && section(&root, INIT).is_none() {
+        edits.extend(parts.init.iter().map(|init| Edit {
+            start: text.len(),
+            end: text.len(),
+            text: format!("\n{init}"),
+        }));
     }
     if section(&root, MAIN_RULE).is_none() {
         // The initial states come behind it.
@@ -100,9 +113,7 @@ fn items(section: &SyntaxNode, wanted: &[Item], edits: &mut Vec<Edit>) {
         let Some(name) = declared(&node) else { continue };
         let is_new = |item: &&Item| item.decided || observed::is_outdated(&node.text().to_string(), &item.text);
         if let Some(item) = wanted.iter().filter(|item| item.name == name).find(is_new) {
-            let range = trimmed_range(&node);
-            let body = without_note(&item.text).trim_end().to_string();
-            edits.push(Edit { start: range.start().into(), end: range.end().into(), text: body });
+            edits.push(Edit::replacing(&node, without_note(&item.text).trim_end().to_string()));
         }
         there.insert(name);
     }
@@ -120,8 +131,7 @@ fn forgotten(signature: &SyntaxNode, parts: &Parts, edits: &mut Vec<Edit>) {
         let element = text.starts_with("static") && super::known::OWNED.contains(&of);
         let name = declared(&node).unwrap_or_default();
         if element && !parts.declarations.iter().any(|item| item.name == name) {
-            let range = trimmed_range(&node);
-            edits.push(Edit { start: range.start().into(), end: range.end().into(), text: String::new() });
+            edits.push(Edit::replacing(&node, String::new()));
         }
     }
 }
@@ -133,8 +143,7 @@ fn unbounded(definitions: &SyntaxNode, parts: &Parts, edits: &mut Vec<Edit>) {
         let text = node.text().to_string();
         let is_age = name.starts_with("inv_age") && text.contains("way_tooOld(bound");
         if (is_age || observed::is_made(&name, &text)) && !parts.definitions.iter().any(|item| item.name == name) {
-            let range = trimmed_range(&node);
-            edits.push(Edit { start: range.start().into(), end: range.end().into(), text: String::new() });
+            edits.push(Edit::replacing(&node, String::new()));
         }
     }
 }

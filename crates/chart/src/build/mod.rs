@@ -13,6 +13,7 @@ mod merge;
 mod module;
 mod observed;
 mod rule;
+mod running;
 mod spelling;
 pub(crate) mod system;
 mod table;

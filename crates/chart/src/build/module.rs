@@ -8,6 +8,7 @@ use std::fmt::Write;
 
 use super::known::Known;
 use super::rule::machine_rule;
+use super::running::{Running, Start};
 use super::spelling::{answer_name, applied, call, function_name, memory_name, rule_name, state_value};
 use crate::chart::{Chart, Composite, Control, History, Machine, Shape, ShapeKind};
 use crate::flow::is_block;
@@ -36,6 +37,10 @@ pub(super) struct Parts {
     pub(super) main: Option<String>,
     /// The initial state of a file that runs.
     pub(super) init: Option<String>,
+    /// How the main rule runs the machines of a chart without a system.
+    pub(super) running: Vec<Running>,
+    /// How their control variables begin.
+    pub(super) starts: Vec<Start>,
     /// Whether the chart determines the elements of some domains, the main rule and the initial state.
     pub(super) owns: bool,
     /// Names that are still to be written by hand.
@@ -66,8 +71,10 @@ pub(super) fn parts(chart: &Chart, known: &Known) -> Parts {
     }
     if chart.machines.iter().any(|machine| runs(&machine)) {
         let machines: Vec<&Machine> = chart.machines.iter().filter(|machine| !machine.is_pattern).collect();
-        parts.main = Some(main_rule(&machines));
-        parts.init = Some(initial_state(chart, &machines.into_iter().filter(runs).collect::<Vec<_>>()));
+        parts.running = machines.iter().map(|machine| running(machine)).collect();
+        parts.starts = starts(chart, &machines.into_iter().filter(runs).collect::<Vec<_>>());
+        parts.main = Some(main_rule(&parts.running));
+        parts.init = Some(initial_state(&parts.starts));
     }
     parts
 }
@@ -212,43 +219,53 @@ fn stub(machine: &Machine, shape: &Shape, known: &Known, of_a_machine: bool, par
     }
 }
 
-fn main_rule(machines: &[&Machine]) -> String {
-    let call = |machine: &&Machine| {
-        let name = rule_name(machine);
-        let call = applied(&name, machine, '[', ']');
-        if machine.parameters.is_empty() {
-            return call;
-        }
-        let binders: Vec<String> = machine
-            .parameters
-            .iter()
-            .map(|parameter| format!("{} in {}", parameter.variable, parameter.domain))
-            .collect();
-        format!("forall {} with true do {call}", binders.join(", "))
+fn running(machine: &Machine) -> Running {
+    let rule = rule_name(machine);
+    let call = applied(&rule, machine, '[', ']');
+    let call = match &machine.parameters[..] {
+        [] => call,
+        _ => format!("forall {} with true do {call}", binders(machine)),
     };
-    let calls: Vec<String> = machines.iter().map(call).collect();
+    let control = match &machine.control {
+        Some(Control::Made { name, .. }) => Some(name.clone()),
+        _ => None,
+    };
+    Running { rule, call, control }
+}
+
+/// The parameters of a machine with their domains.
+fn binders(machine: &Machine) -> String {
+    let all = machine.parameters.iter().map(|parameter| format!("{} in {}", parameter.variable, parameter.domain));
+    all.collect::<Vec<_>>().join(", ")
+}
+
+fn main_rule(machines: &[Running]) -> String {
+    let calls: Vec<&str> = machines.iter().map(|machine| machine.call.as_str()).collect();
     match &calls[..] {
         [one] => format!("main rule r_Main =\n{one}\n"),
         several => format!("main rule r_Main =\npar\n{}\nendpar\n", several.join("\n")),
     }
 }
 
-fn initial_state(chart: &Chart, machines: &[&Machine]) -> String {
-    let mut text = "default init s0:\n".to_string();
-    let mut seen = Vec::new();
+/// How the control variables of machines begin, each once.
+fn starts(chart: &Chart, machines: &[&Machine]) -> Vec<Start> {
+    let mut all: Vec<Start> = Vec::new();
     for machine in machines {
         let (Some(Control::Made { name, .. }), Some(initial)) = (&machine.control, machine.initial()) else { continue };
-        if seen.contains(name) {
+        if all.iter().any(|start| start.control == *name) {
             continue;
         }
-        seen.push(name.clone());
-        let parameters: Vec<String> = machine
-            .parameters
-            .iter()
-            .map(|parameter| format!("{} in {}", parameter.variable, parameter.domain))
-            .collect();
-        let parameters = if parameters.is_empty() { String::new() } else { format!("({})", parameters.join(", ")) };
-        let _ = writeln!(text, "function {name}{parameters} = {}", state_value(chart, machine, initial));
+        let parameters = if machine.parameters.is_empty() { String::new() } else { format!("({})", binders(machine)) };
+        let head = format!("function {name}{parameters} = ");
+        all.push(Start { control: name.clone(), head, value: state_value(chart, machine, initial) });
+    }
+    all
+}
+
+fn initial_state(starts: &[Start]) -> String {
+    let mut text = "default init s0:\n".to_string();
+    for Start { head, value, .. } in starts {
+        let _ = writeln!(text, "{head}{value}");
     }
     text
 }
