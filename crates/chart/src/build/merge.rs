@@ -8,24 +8,10 @@ use std::collections::BTreeSet;
 use syntax::ast::trimmed_range;
 use syntax::{Diagnostic, FileId, Severity, SyntaxKind, SyntaxKind::*, SyntaxNode};
 
+use super::edit::{Edit, apply};
 use super::module::{Item, Parts, quoted};
 use super::{observed, running};
 use crate::chart::Chart;
-
-/// One change of the text.
-pub(super) struct Edit {
-    pub(super) start: usize,
-    pub(super) end: usize,
-    pub(super) text: String,
-}
-
-impl Edit {
-    /// A text in the place of a node.
-    pub(super) fn replacing(node: &SyntaxNode, text: String) -> Edit {
-        let range = trimmed_range(node);
-        Edit { start: range.start().into(), end: range.end().into(), text }
-    }
-}
 
 /// Merges the parts into a text; also returns the names that the text declared before.
 pub(super) fn into(text: &str, chart: &Chart, parts: &Parts) -> Result<(String, Vec<String>), Vec<Diagnostic>> {
@@ -155,16 +141,4 @@ fn without_note(text: &str) -> &str {
         rest = behind.split_once('\n').map_or("", |(_, rest)| rest);
     }
     rest
-}
-
-fn apply(text: &str, mut edits: Vec<Edit>) -> String {
-    edits.sort_by_key(|edit| (edit.start, edit.end));
-    let mut out = String::new();
-    let mut at = 0;
-    for edit in edits {
-        out.push_str(&text[at..edit.start]);
-        out.push_str(&edit.text);
-        at = edit.end;
-    }
-    out + &text[at..]
 }

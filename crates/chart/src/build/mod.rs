@@ -6,6 +6,7 @@
 
 mod ages;
 mod clash;
+mod edit;
 mod figures;
 mod known;
 mod lengths;

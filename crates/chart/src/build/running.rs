@@ -10,7 +10,7 @@ use std::collections::BTreeSet;
 use syntax::ast::{AstNode, FunctionDef, Init, trimmed_range};
 use syntax::{SyntaxKind, SyntaxKind::*, SyntaxNode};
 
-use super::merge::Edit;
+use super::edit::Edit;
 
 /// How a model runs a machine.
 #[derive(Debug, Clone)]
