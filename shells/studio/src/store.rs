@@ -6,6 +6,7 @@
 
 use std::collections::{BTreeMap, VecDeque};
 use std::sync::Arc;
+use std::time::Duration;
 
 use serde_json::{Value, json};
 use sha1::{Digest, Sha1};
@@ -14,6 +15,9 @@ use crate::folder::Folder;
 
 /// LIMIT: bytes of former texts.
 const KEPT: usize = 64 << 20;
+
+/// LIMIT: how often, and how long after each other, a file that has become empty is looked at again.
+const LOOKS: (usize, Duration) = (50, Duration::from_millis(20));
 
 /// See the module.
 #[derive(Debug, Default)]
@@ -63,7 +67,7 @@ impl Store {
     /// # Errors
     /// As [`Folder::read`].
     pub fn read(&mut self, folder: &Folder, path: &str) -> Result<Option<(String, String)>, String> {
-        let present = folder.read(path)?.map(|text| (self.know(&text), text));
+        let present = self.whole(folder, path)?.map(|text| (self.know(&text), text));
         self.told.entry(path.to_string()).or_insert_with(|| present.as_ref().map(|(hash, _)| hash.clone()));
         Ok(present.map(|(hash, text)| (text, hash)))
     }
@@ -73,7 +77,7 @@ impl Store {
     /// # Errors
     /// A new file is there already, or the disk refuses; a sentence.
     pub fn write(&mut self, folder: &Folder, path: &str, text: &str, base: Option<&str>) -> Result<Wrote, String> {
-        let there = folder.read(path)?;
+        let there = self.whole(folder, path)?;
         let Some(base) = base else {
             return match there {
                 Some(_) => Err(format!("{path} is there already")),
@@ -104,6 +108,21 @@ impl Store {
             }
             (Ok(merged) | Err(merged), _) => Ok(Wrote::Not { hash, theirs, merged }),
         }
+    }
+
+    /// The text of a file. Most programs empty a file before they write it: one that was not empty is looked at again for a while, so that
+    /// nothing is merged with a text that nobody wrote.
+    fn whole(&self, folder: &Folder, path: &str) -> Result<Option<String>, String> {
+        let was_empty = self.told.get(path).is_none_or(|told| told.as_ref().is_none_or(|told| *told == hash("")));
+        let mut text = folder.read(path)?;
+        for _ in 0..LOOKS.0 {
+            if was_empty || text.as_deref() != Some("") {
+                break;
+            }
+            std::thread::sleep(LOOKS.1);
+            text = folder.read(path)?;
+        }
+        Ok(text)
     }
 
     /// Whoever writes a text tells it the others.
@@ -174,7 +193,7 @@ impl Store {
         let mut news = Vec::new();
         for (path, known) in self.told.clone() {
             // What cannot be read now is looked at again.
-            let Ok(text) = folder.read(&path) else { continue };
+            let Ok(text) = self.whole(folder, &path) else { continue };
             let present = text.as_ref().map(|text| hash(text));
             if present != known {
                 if let Some(text) = &text {
@@ -247,6 +266,34 @@ mod tests {
         assert_eq!(store.remove(&folder, "c.asm"), Ok("4\n".to_string()));
         assert_eq!((there("c.asm"), store.changed(&folder)), (None, Vec::new()));
         assert!(store.remove(&folder, "c.asm").is_err() && store.remove(&folder, "../x.asm").is_err());
+    }
+
+    #[test]
+    fn a_file_that_is_being_written_is_not_taken_for_an_empty_one() {
+        let place = tempfile::tempdir().expect("a folder");
+        let folder = Folder::at(place.path()).expect("it is one");
+        let mut store = Store::default();
+        let Ok(Wrote::As(base)) = store.write(&folder, "a.asm", "a\nb\nc\n", None) else { panic!("it is new") };
+        let file = place.path().join("a.asm");
+        let written = |text: &'static str| {
+            std::fs::write(&file, "").expect("emptied");
+            let file = file.clone();
+            std::thread::spawn(move || {
+                std::thread::sleep(Duration::from_millis(60));
+                std::fs::write(file, text).expect("written");
+            })
+        };
+        let writer = written("a\nb\nc\nd\n");
+        let news = store.changed(&folder);
+        assert_eq!(news, [("a.asm".to_string(), Some(("a\nb\nc\nd\n".to_string(), hash("a\nb\nc\nd\n"))))]);
+        writer.join().expect("it ends");
+        let writer = written("a\nb\nc\nD\n");
+        let merged = store.write(&folder, "a.asm", "A\nb\nc\n", Some(&base)).expect("merged");
+        writer.join().expect("it ends");
+        assert!(matches!(&merged, Wrote::Merged(_, text) if text == "A\nb\nc\nD\n"), "{merged:?}");
+        // Who empties a file is believed.
+        std::fs::write(&file, "").expect("emptied");
+        assert_eq!(store.changed(&folder), [("a.asm".to_string(), Some((String::new(), hash(""))))]);
     }
 
     #[test]
