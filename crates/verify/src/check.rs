@@ -123,6 +123,29 @@ pub(crate) fn verify_request(
     })
 }
 
+/// The report of a search that was stopped before it began: nothing is known.
+pub fn unbegun(program: &Program, options: &Options, stop: Stop) -> Report {
+    let subjects = Question::of(program, options).subjects;
+    let outcome = Outcome::Unknown(vec![Reason::Stopped(stop)]);
+    Report {
+        verdicts: subjects.iter().map(|(subject, _)| Verdict { subject: *subject, outcome: outcome.clone() }).collect(),
+        engine: EngineKind::Explicit,
+        progress: Progress::default(),
+        stop: Some(stop),
+        complete: false,
+        width: (0, 0),
+        unreachable: Vec::new(),
+        runs: BTreeMap::new(),
+        storage: options.storage,
+        omission: None,
+        reduced: None,
+        symmetry: None,
+        proofs: BTreeMap::new(),
+        left: BTreeMap::new(),
+        solver: None,
+    }
+}
+
 /// The outcomes of temporal properties, and why the unknown ones are unknown. A limit that ended the search does not
 /// affect them if their own graph is complete.
 fn of_runs(

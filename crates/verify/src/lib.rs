@@ -37,6 +37,7 @@ mod trace;
 pub mod vacuity;
 mod walk;
 
+pub use check::unbegun;
 pub use explore::checkpoint::{Keeper, Refusal};
 pub use heed::Listener;
 pub use options::{EngineKind, Options};

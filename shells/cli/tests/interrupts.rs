@@ -58,3 +58,20 @@ fn mutants_that_were_judged_are_told() {
     assert!(matches!(child.wait().expect("it ends").code(), Some(1 | 3)), "{told}");
     assert!(told.contains("not judged: the command was interrupted"), "{told}");
 }
+
+/// What was proved of a part of a system stays; of the rest it is said that nothing is known.
+#[test]
+fn a_system_whose_search_has_not_begun_has_verdicts() {
+    let folder = testkit::repository::root().join("examples/visual_servoing");
+    let mut command = Command::new(env!("CARGO_BIN_EXE_groundstate"));
+    command.args(["verify", "ControllerSystem.chart", "--data", "--workers", "1"]);
+    let mut child =
+        command.current_dir(folder).stdout(Stdio::piped()).stderr(Stdio::null()).spawn().expect("it starts");
+    // A search of minutes, before which others of seconds try to prove what they can.
+    std::thread::sleep(std::time::Duration::from_secs(5));
+    terminate(&child);
+    let mut rest = String::new();
+    child.stdout.take().expect("it is piped").read_to_string(&mut rest).expect("text");
+    assert_eq!(child.wait().expect("it ends").code(), Some(3), "{rest}");
+    assert!(rest.contains("unknown   no deadlock: interrupted") && !rest.contains("initial states"), "{rest}");
+}

@@ -311,6 +311,7 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
         None => (system::Proved::new(), watch),
     };
     let again = arguments.vacuity.then(|| options.clone());
+    let unbegun = system.is_some().then(|| options.clone());
     let request = Request::of(&program, options).fair(agents).kept(arguments.checkpoint.is_some()).build();
     let request = request.map_err(conflict::conflict)?;
     let solver = Process::find(arguments.solver.as_deref());
@@ -346,6 +347,9 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
         Err(NoStart::Refused(refusal)) => {
             return Err(checkpoint
                 .map_or_else(|| Failure::usage("no checkpoint"), |kept| kept.refused(refusal, "other properties")));
+        }
+        Err(NoStart::Stopped(stop)) if let Some(options) = &unbegun => {
+            groundstate::verify::unbegun(&program, options, stop)
         }
         Err(trouble) => return no_start(shell, &teller, trouble),
     };
