@@ -117,7 +117,6 @@ struct Said<'a> {
     kind: Cow<'a, str>,
     #[serde(borrow)]
     object: Cow<'a, str>,
-    #[serde(default)]
     number: u64,
     array: Option<u64>,
     next: Option<u64>,
@@ -434,7 +433,10 @@ impl Reader {
         };
         let Said { number, array, next, fresh, known, part, .. } = said;
         let Some(kind) = kind else {
-            let (known, fresh, is_got) = (known.unwrap_or(false), fresh.unwrap_or(false), decision.unwrap_or(false));
+            let is_got = decision.unwrap_or(false);
+            let (Some(known), Some(fresh)) = (known, fresh.or((!is_got).then_some(false))) else {
+                return Some(malformed("a message is no event"));
+            };
             let events = track.events.len();
             track.decisions.push(Decision { time_ns, is_got, object, part, bits: number, known, fresh, events });
             return Some(in_order(track));

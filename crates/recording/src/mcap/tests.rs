@@ -107,6 +107,19 @@ fn decisions_are_read() {
             .concat(),
         )
     };
+    // What is left out is not taken for 0 or for false.
+    for lacking in [
+        r#""kind":"gets","object":"codes","known":true,"fresh":true"#,
+        r#""kind":"gets","object":"codes","number":7,"fresh":true"#,
+        r#""kind":"gets","object":"codes","number":7,"known":true"#,
+        r#""kind":"decides","object":"lamp","known":true"#,
+        r#""kind":"decides","object":"lamp","number":0"#,
+        r#""kind":"takes","object":"codes""#,
+    ] {
+        let events = [event(0, 0, 5), said(1, lacking)];
+        let refused = Recording::read(&[head(), channel(0, "/task"), chunk(&events.concat())].concat());
+        assert!(refused.is_err_and(|refused| refused.0.contains("a message is no event")), "{lacking}");
+    }
     let events = [
         event(0, 0, 5),
         said(1, r#""kind":"gets","object":"codes","number":7,"known":true,"fresh":true"#),
