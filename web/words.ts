@@ -522,9 +522,10 @@ export const words = {
     ]],
     ['On the canvas', [
       ['S · G · A · I · C', 'State, guard, action, pattern, composite state: then a click, or Enter to put it behind the selected shape'],
-      ['E', 'Arrow from the selected shape: arrow keys or Tab, then Enter'],
+      ['E', 'Arrow from the selected shape: arrow keys or Tab, Y or N for the exit of a guard, then Enter'],
       ['Esc', 'Leave what is in the hand'],
       ['Tab', 'From shape to shape'],
+      ['Ctrl click · Shift click', 'Select several shapes'],
       ['Enter', 'Edit the text of a shape'],
       ['Shift Enter', 'Open its drawing'],
       ['Arrows', 'Move by the grid; with Alt, by a pixel'],
