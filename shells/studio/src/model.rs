@@ -9,8 +9,9 @@ use serde_json::{Value, json};
 
 use crate::studio::Studio;
 
-/// The faults by which a chart and its model differ; others are of one of the two.
-const DIFFERS: [&str; 2] = ["chart-differs", "system-differs"];
+/// The faults by which a chart and its model differ; others are of one of the two. What the model lacks may be what building adds, such as the
+/// rule of a machine that got another name: if it is not, building says so.
+const DIFFERS: [&str; 3] = ["chart-differs", "system-differs", "broken-link"];
 
 /// The model beside a chart, and whether both agree: `none`, `agrees`, `differs`, `faulty` or `unknown`.
 ///
@@ -56,6 +57,7 @@ mod tests {
         };
         check(&[("error", "chart-differs"), ("error", "system-differs")], "differs");
         check(&[("warning", "overlap"), ("error", "chart-differs")], "differs");
+        check(&[("error", "broken-link")], "differs");
         check(&[("error", "chart-differs"), ("error", "syntax-error")], "faulty");
     }
 }
