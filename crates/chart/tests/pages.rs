@@ -110,6 +110,10 @@ fn a_changed_chart_changes_what_the_model_runs() {
     let both = "par r_lamp[] forall $r in Room with true do r_fan[$r] endpar";
     let slow = "function speed($r in Room) = SLOW";
     assert_eq!(again(&format!("{lamp}{fan}"), &first), format!("r_Main = {both} {off} {slow}"));
+    // Of two machines with one control variable, the first had another name.
+    let other = bulb.split_once("machine bulb").expect("a machine").1;
+    let two = again(&format!("{bulb}machine fan{other}"), &first);
+    assert_eq!(two, format!("r_Main = par r_bulb[] r_fan[] endpar {off}"));
     // What is written by hand stays: other rules that are called, a main rule that does more, a value that is computed.
     let with = |main: &str, value: &str| {
         let rules = "rule r_reset = if wanted then light := OFF endif\n\trule r_all = r_lamp[]\n\tmain rule r_Main =";

@@ -46,14 +46,19 @@ pub(super) fn calls(root: &SyntaxNode, machines: &[Running], edits: &mut Vec<Edi
     let Some(called) = calls.iter().map(called).collect::<Option<Vec<String>>>() else { return };
     let reached = reached(root, &main);
     let mut added = Vec::new();
+    let mut replaced: Vec<&SyntaxNode> = Vec::new();
     for machine in machines.iter().filter(|machine| !reached.contains(&machine.rule)) {
         let is_another = |rule: &str| !machines.iter().any(|other| other.rule == rule);
         let renamed = calls.iter().zip(&called).filter(|(_, rule)| {
             is_another(rule) && machine.control.as_ref().is_some_and(|control| moves(root, rule, control))
         });
-        match renamed.map(|(call, _)| call).collect::<Vec<_>>()[..] {
+        // Machines may share a control variable; one of them alone had the name before.
+        match renamed.map(|(call, _)| call).filter(|call| !replaced.contains(call)).collect::<Vec<_>>()[..] {
             [] => added.push(machine.call.as_str()),
-            [one] => edits.push(Edit::replacing(one, machine.call.clone())),
+            [one] => {
+                replaced.push(one);
+                edits.push(Edit::replacing(one, machine.call.clone()));
+            }
             // Which of them it was is not known.
             _ => {}
         }
