@@ -413,11 +413,15 @@ fn decide(
     if let Some(cause) = cut {
         return Decision::Stop(Some(cause.into()));
     }
+    // What a store had no room for is in none of these counts.
+    if any(|report| report.full) {
+        return Decision::Stop(Some(Stop::Memory));
+    }
     if left + fresh + pending == 0 {
         return Decision::Stop(None);
     }
     // With a disk, storage observes its own limit.
-    if any(|report| report.full) || (progress.bytes > plan.max_bytes && plan.disk.is_none()) {
+    if progress.bytes > plan.max_bytes && plan.disk.is_none() {
         return Decision::Stop(Some(Stop::Memory));
     }
     if let Some(cause) = plan.settings.interrupt.cause() {
@@ -443,4 +447,20 @@ fn decide(
         return Decision::Stop(Some(Stop::Depth));
     }
     Decision::Level
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A state that there was no room for is neither left nor fresh: the search is not complete without it.
+    #[test]
+    fn a_search_with_a_full_store_is_not_complete() {
+        let decided = |full: bool| {
+            let reports = [Tally::default(), Tally { states: 7, full, ..Tally::default() }];
+            decide(&reports, 3, &Plan::default(), &mut Progress::default(), &mut |_| true)
+        };
+        assert_eq!(decided(false), Decision::Stop(None));
+        assert_eq!(decided(true), Decision::Stop(Some(Stop::Memory)));
+    }
 }

@@ -214,6 +214,10 @@ impl<'p> Surveyor<'p> {
             self.take_in(next as u32, &successors);
             next += 1;
         }
+        // The state that there was no room for may have been the last one.
+        if self.survey.stop.is_none() && self.survey.table.is_full() {
+            self.survey.stop = Some(Stop::Memory);
+        }
         self.survey.progress = self.progress(next);
         if self.unclear {
             self.survey.reasons.push(Reason::Undecided);
