@@ -348,10 +348,10 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
             return Err(checkpoint
                 .map_or_else(|| Failure::usage("no checkpoint"), |kept| kept.refused(refusal, "other properties")));
         }
-        Err(NoStart::Stopped(stop)) if let Some(options) = &unbegun => {
-            groundstate::verify::unbegun(&program, options, stop)
-        }
-        Err(trouble) => return no_start(shell, &teller, trouble),
+        Err(trouble) => match (trouble, &unbegun) {
+            (NoStart::Stopped(stop), Some(options)) => groundstate::verify::unbegun(&program, options, stop),
+            (trouble, _) => return no_start(shell, &teller, trouble),
+        },
     };
     for verdict in &mut report.verdicts {
         if matches!(verdict.outcome, Outcome::Unknown(_))
