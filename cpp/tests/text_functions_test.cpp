@@ -8,7 +8,8 @@ const Value undef, yes = Value::boolean(true), no = Value::boolean(false);
 
 constexpr std::string_view phases[] = {"IDLE", "BUSY"};
 constexpr std::string_view robots[] = {"left", "right"};
-constexpr Names::Domain domains[] = {{"Phase", false, phases}, {"Robot", true, robots}};
+constexpr std::string_view parts[] = {"bolt"};
+constexpr Names::Domain domains[] = {{"Phase", false, phases}, {"Agent", true, robots}, {"Part", true, parts}};
 constexpr Names names{domains, {}};
 
 TEST(LibraryStrings, ToStringIsWhatIsPrinted) {
@@ -81,10 +82,11 @@ TEST(LibraryStrings, AreReadAsComplexNumbers) {
 
 TEST(LibraryAgents, HaveNames) {
     EXPECT_EQ(agent_id(Value::element(1, 1), names, here), text("right"));
-    EXPECT_EQ(agent_id(Value::element(1, 2), names, here), text("robot!1"));
+    EXPECT_EQ(agent_id(Value::element(1, 2), names, here), text("agent!1"));
     EXPECT_FAULT(undefined_operand, agent_id(undef, names, here));
     EXPECT_EQ(get_agent(text("right"), names, here), Value::element(1, 1));
     EXPECT_EQ(get_agent(text("BUSY"), names, here), undef) << "a literal is no agent";
+    EXPECT_EQ(get_agent(text("bolt"), names, here), undef) << "not every element is an agent";
     EXPECT_EQ(get_agent(undef, names, here), undef);
 }
 

@@ -12,12 +12,13 @@ namespace groundstate::machine {
     return detail::checked(Value::string(show(agent, names)), site);
 }
 
-/// `getAgent`: the element declared under that name; undef if there is none.
+/// `getAgent`: the element of `Agent` that is declared under that name; undef if there is none.
 [[nodiscard]] inline Value get_agent(const Value& name, const Names& names, Site) noexcept {
     if (!name.is(Kind::string)) return {};
     for (std::uint32_t domain = 0; domain < names.domains.size(); ++domain) {
         const Names::Domain& entry = names.domains[domain];
-        for (std::uint32_t index = 0; entry.abstract && index < entry.literals.size(); ++index) {
+        if (!entry.abstract || entry.name != "Agent") continue;
+        for (std::uint32_t index = 0; index < entry.literals.size(); ++index) {
             if (entry.literals[index] == name.as_string()) return Value::element(domain, index);
         }
     }

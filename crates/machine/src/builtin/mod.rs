@@ -125,12 +125,15 @@ impl<'a> Executor<'a> {
         self.fault(span, kind)
     }
 
+    /// The agent that is declared under the name: an element of `Agent` or of a subset of it.
     fn agent_named(&self, name: &Value) -> Value {
         let Value::String(name) = name else { return Value::Undef };
-        let found = self.program.functions.iter().find(|f| f.element.is_some() && f.name == **name);
-        found.map_or(Value::Undef, |f| {
-            Value::Element(self.program.base_domain(f.codomain), f.element.unwrap_or_default())
-        })
+        let agents = self.program.functions.iter().filter_map(|function| {
+            let base = self.program.base_domain(function.codomain);
+            let element = function.element.filter(|_| self.program.domain(base).name == "Agent")?;
+            Some((&function.name, Value::Element(base, element)))
+        });
+        agents.filter(|(known, _)| *known == &**name).map(|(_, agent)| agent).next().unwrap_or(Value::Undef)
     }
 
     /// `chooseone(S)`: an element chosen by the environment; undef of an empty set.

@@ -1,6 +1,6 @@
 //! Strings and chars, and values as text. Positions count characters from 0.
 
-use model::Model;
+use model::{Domains, Model};
 
 use super::Outcome;
 use crate::fault::Fault;
@@ -19,7 +19,9 @@ pub(super) fn apply(model: &Model, name: &str, values: &[Value]) -> Option<Outco
         ("id", [agent @ Value::Element(..)]) => string(show(model, agent)),
         ("getAgent", [Value::String(name)]) => {
             let mut named = crate::element::named_elements(model);
-            let found = named.find(|(function, ..)| model.function(*function).name == *name);
+            let found = named.find(|(function, domain, _)| {
+                model.function(*function).name == *name && model.domains.type_domain(*domain) == Domains::AGENT
+            });
             Some(Ok(found.map_or(Value::Undef, |(_, _, element)| element)))
         }
         ("getAgent", [Value::Undef]) => Some(Ok(Value::Undef)),
