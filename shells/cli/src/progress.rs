@@ -49,6 +49,18 @@ impl Progress {
         Progress { what, ..Progress::new(Some(total), busy) }
     }
 
+    /// A line that says what goes on, and for how long, while nothing is counted.
+    pub fn busy_with(what: &str, busy: bool) -> Progress {
+        let progress = Progress::new(None, busy);
+        let shown = progress.wanted.then(|| {
+            let bar = spinner("{spinner} {msg}, {elapsed}");
+            bar.set_message(what.to_string());
+            bar.enable_steady_tick(Duration::from_millis(100));
+            bar
+        });
+        Progress { bar: shown, ..progress }
+    }
+
     /// Shows how many steps have been made.
     pub fn at(&mut self, steps: u64) {
         if !self.wanted {
@@ -71,15 +83,22 @@ impl Progress {
 }
 
 fn bar(total: Option<u64>, what: &str) -> ProgressBar {
-    let (bar, template) = match total {
-        Some(total) => (
-            ProgressBar::new(total),
-            format!("{{wide_bar}} {{human_pos}}/{{human_len}} {what}, {{per_sec}}, {{eta}} left"),
-        ),
-        None => (ProgressBar::no_length(), format!("{{spinner}} {{human_pos}} {what}, {{per_sec}}, {{elapsed}}")),
-    };
+    match total {
+        Some(total) => {
+            let template = format!("{{wide_bar}} {{human_pos}}/{{human_len}} {what}, {{per_sec}}, {{eta}} left");
+            styled(ProgressBar::new(total), &template)
+        }
+        None => spinner(&format!("{{spinner}} {{human_pos}} {what}, {{per_sec}}, {{elapsed}}")),
+    }
+}
+
+fn spinner(template: &str) -> ProgressBar {
+    styled(ProgressBar::no_length(), template)
+}
+
+fn styled(bar: ProgressBar, template: &str) -> ProgressBar {
     bar.set_draw_target(ProgressDrawTarget::stderr_with_hz(10));
-    if let Ok(style) = ProgressStyle::with_template(&template) {
+    if let Ok(style) = ProgressStyle::with_template(template) {
         bar.set_style(style);
     }
     bar

@@ -13,14 +13,14 @@ use mutate::{Mutant, mutants};
 use scenario::Options;
 use simulate::SplitMix;
 use syntax::{Diagnostic, SourceFile, Sources};
-use verify::{NoStart, Outcome, Reason, Report, Stop, Subject};
+use verify::{NoStart, Report};
 
-use super::ask::{Asked, Counting, keys};
+use super::ask::{Asked, Counting};
 use super::drawn::{self, Drawn, Trouble};
 use super::link::{self, Link, Says};
+use super::passing::{as_it_is, counting};
 use super::{Candidate, Extent, Wanted};
 use crate::asked_of_system::draws_system;
-use crate::tell::Verdicts;
 use crate::workspace::{Files, NotLoaded, tidy};
 use crate::{Faulty, Loaded, SeededChoices, Suite, Workspace, fingerprint, own_files, text_fingerprint};
 
@@ -361,7 +361,7 @@ impl Bench {
             print: String::new(),
         };
         if self.wanted.verify {
-            match judge.asked.verified(&self.wanted.extent, (None, false), interrupt) {
+            match as_it_is(&judge.asked, &self.wanted.extent, interrupt) {
                 Ok(report) => match counting(&report, &judge.asked) {
                     Ok(counting) => {
                         judge.note(&report, &loaded, counting);
@@ -540,44 +540,4 @@ impl Judge {
         let unreachable = report.unreachable.iter().filter(|_| self.system.is_none());
         self.never = unreachable.map(place).collect();
     }
-}
-
-/// Which checks count, or why none does, as a clause about the model.
-fn counting(report: &Report, asked: &Asked) -> Result<Counting, String> {
-    let program = asked.program();
-    let keys = keys(program);
-    let mut counting = Counting::default();
-    if report.stop.is_some() {
-        counting.depth = Some(report.progress.depth.saturating_sub(1));
-    }
-    for verdict in &report.verdicts {
-        match (&verdict.outcome, verdict.subject) {
-            (Outcome::Holds, _) => {}
-            (Outcome::Violated(_), Subject::NoDeadlock) => counting.may_rest = true,
-            (Outcome::Violated(_), subject) => {
-                let name = Verdicts::new(program, &asked.overlay.sources, false).name(subject);
-                return Err(format!("does not pass as it is: {name} is violated"));
-            }
-            (Outcome::Unknown(reasons), _) if reasons.contains(&Reason::Vacuous) => {
-                return Err("has no initial state that satisfies its assumptions".to_string());
-            }
-            (Outcome::Unknown(reasons), _) if reasons.contains(&Reason::Stepless) => {
-                return Err("has no step that satisfies its assumptions".to_string());
-            }
-            (Outcome::Unknown(reasons), subject) => {
-                // What was not found within the same bounds, or in the same number of steps, counts if it is found then.
-                let bounded = |reason: &Reason| {
-                    matches!(reason, Reason::Bounded(_) | Reason::Stopped(Stop::States | Stop::Depth | Stop::Memory))
-                };
-                match subject {
-                    // With bounds no state is known to have no step.
-                    Subject::NoDeadlock => counting.may_rest = true,
-                    _ if !reasons.is_empty() && reasons.iter().all(bounded) => {}
-                    Subject::Property(index) => _ = counting.left_out.insert(keys[index].clone()),
-                    Subject::Consistent | Subject::InDomain | Subject::Defined => {}
-                }
-            }
-        }
-    }
-    Ok(counting)
 }

@@ -12,6 +12,7 @@ mod ledger;
 mod link;
 mod outcome;
 mod page;
+mod passing;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::RangeInclusive;

@@ -61,7 +61,7 @@ pub struct Arguments {
     /// Only mutants of lines that changed since this revision of git
     #[arg(long, value_name = "REV")]
     since: Option<String>,
-    /// The most time for one mutant, in seconds
+    /// The most time for one mutant, in seconds. The model as it is takes as long as it takes
     #[arg(long, value_name = "SECONDS", value_parser = crate::limits::count, default_value = "20")]
     time: u64,
     /// The most states for one mutant
@@ -159,12 +159,17 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     let started = job::mutate(wanted, hands, strict, Cancel::from(interrupt::request().clone()));
     let job = started.map_err(|error| Failure::usage(format!("the analysis cannot be started: {error}")))?;
     let mut progress: Option<Progress> = None;
+    let silent = shell.global.quiet || shell.json();
     let mut judged = 0;
     while let Some(event) = job.next_event() {
         match event {
-            MutateEvent::Tried(_) => {}
+            MutateEvent::Tried(path) => {
+                progress.iter_mut().for_each(Progress::done);
+                progress = Some(Progress::busy_with(&format!("{path} as it is"), silent));
+            }
             MutateEvent::Begun(count) => {
-                progress = Some(Progress::of("mutants", count as u64, shell.global.quiet || shell.json()));
+                progress.iter_mut().for_each(Progress::done);
+                progress = Some(Progress::of("mutants", count as u64, silent));
             }
             MutateEvent::Judged(..) => {
                 judged += 1;

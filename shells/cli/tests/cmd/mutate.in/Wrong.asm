@@ -1,9 +1,9 @@
 asm Wrong
 import StandardLibrary
 signature:
-    controlled on: Boolean
+    controlled count: Integer
 definitions:
-    invariant inv_off over on: not on
-    main rule r_Main = on := true
+    invariant inv_few over count: count < 3
+    main rule r_Main = count := count + 1
 default init s0:
-    function on = false
+    function count = 0
