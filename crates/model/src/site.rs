@@ -14,7 +14,7 @@ use crate::id::{FunctionId, RuleId};
 use crate::library;
 use crate::model::Model;
 use crate::names::Names;
-use crate::suggest::{did_you_mean, nearest};
+use crate::suggest::{did_you_mean, foreign_domain, nearest};
 use crate::uses::Referent;
 
 /// A file being declared or checked.
@@ -148,6 +148,9 @@ impl Site<'_> {
         let help = match self.names.literal(name) {
             Some((domain, _)) => format!("`{name}` is a literal of the enum domain `{}`", self.display(domain)),
             None => did_you_mean(name, self.names.domains.keys().map(|name| &**name), || {
+                if let Some(ours) = foreign_domain(name) {
+                    return format!("did you mean `{ours}`?");
+                }
                 self.hidden(name, |model, name| {
                     model
                         .domains
@@ -217,6 +220,9 @@ impl Site<'_> {
             return;
         }
         let help = did_you_mean(name, self.names.literals.keys().map(|name| &**name), || {
+            if let Some(function) = self.names.functions.keys().find(|known| known.eq_ignore_ascii_case(name)) {
+                return format!("did you mean the function `{function}`?");
+            }
             let of = |(_, domain): (DomainId, &Domain)| match &domain.kind {
                 DomainKind::Enum { literals } if literals.iter().any(|literal| literal == name) => domain.name.clone(),
                 _ => None,

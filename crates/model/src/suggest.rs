@@ -1,7 +1,7 @@
 //! "Did you mean": the nearest of the valid names.
 //!
 //! In: a name that means nothing and the names in scope. Out: one of them, if it is so near that it was probably
-//! meant: it differs only in capitals, or by few edits for its length.
+//! meant: it differs only in capitals, or by few edits for its length, or is the only one with more before or after it.
 
 /// The candidate that was likely meant.
 pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
@@ -11,12 +11,40 @@ pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) ->
         6..=9 => 2,
         _ => 3,
     };
-    candidates
-        .into_iter()
-        .filter(|candidate| *candidate != name)
-        .filter_map(|candidate| Some((distance(name, candidate, allowed)?, candidate)))
-        .min_by(|a, b| a.cmp(b))
-        .map(|(_, candidate)| candidate)
+    let (mut near, mut longer): (Option<(usize, &str)>, Vec<&str>) = (None, Vec::new());
+    for candidate in candidates.into_iter().filter(|candidate| *candidate != name) {
+        match distance(name, candidate, allowed) {
+            Some(distance) => near = Some(near.map_or((distance, candidate), |best| (distance, candidate).min(best))),
+            None if is_longer(name, candidate) => longer.push(candidate),
+            None => {}
+        }
+    }
+    match (near, &longer[..]) {
+        (Some((_, candidate)), _) => Some(candidate),
+        (None, [only]) => Some(only),
+        (None, _) => None,
+    }
+}
+
+/// Whether a name is another one with something before or after it: `HALTED` is, and `PLANNER_HALT` is, for `HALT`.
+fn is_longer(name: &str, candidate: &str) -> bool {
+    let ends = candidate.strip_suffix(name).is_some_and(|before| before.ends_with('_'));
+    name.len() >= 3 && (candidate.starts_with(name) || ends)
+}
+
+/// What the domain of this name in other languages is called here.
+pub(crate) fn foreign_domain(name: &str) -> Option<&'static str> {
+    Some(match name {
+        "Bool" | "Logical" => "Boolean",
+        "Int" | "Long" | "Short" | "Byte" | "Number" => "Integer",
+        "Nat" | "Unsigned" => "Natural",
+        "Float" | "Double" | "Decimal" => "Real",
+        "Str" | "Text" => "String",
+        "Character" => "Char",
+        "Set" => "Powerset",
+        "List" | "Sequence" | "Array" | "Vector" => "Seq",
+        _ => return None,
+    })
 }
 
 fn distance(name: &str, candidate: &str, allowed: usize) -> Option<usize> {
@@ -52,5 +80,8 @@ mod tests {
         assert_eq!(nearest("integer", ["Integer", "interior"]), Some("Integer"));
         assert_eq!(nearest("flag", ["count"]), None);
         assert_eq!(nearest("x", ["y"]), None);
+        assert_eq!(nearest("HALT", ["GOING", "HALTED"]), Some("HALTED"));
+        assert_eq!(nearest("HALTED", ["GOING", "PLANNER_HALTED"]), Some("PLANNER_HALTED"));
+        assert_eq!(nearest("HALTED", ["ARM_HALTED", "PLANNER_HALTED"]), None, "which of both was meant?");
     }
 }

@@ -428,6 +428,13 @@ pub(crate) fn channel_ends(span: Span, name: &str, reason: &str) -> Diagnostic {
         .with_help("correct the channel, or the phases of its two ends")
 }
 
+/// A channel with too few or too many places.
+pub(crate) fn channel_size(span: Span, name: &str, reason: &str, smallest: &str) -> Diagnostic {
+    Diagnostic::error("channel-ends", span, format!("the channel `{name}` does not fit: {reason}"))
+        .here("as many places as it has")
+        .with_help(format!("write `{smallest}`, or more"))
+}
+
 /// Components that start each other, and nothing else does.
 pub(crate) fn circular_wait(span: Span, circle: &[&str]) -> Diagnostic {
     let (name, ways) = (circle.first().copied().unwrap_or_default(), circle.join("` awaits `"));
@@ -460,13 +467,6 @@ pub(crate) fn channel_master(span: Span, name: &str, reader: Option<&str>) -> Di
     Diagnostic::error("channel-master", span, format!("the master of the buffer `{name}`{to} must be named"))
         .here("it is the slower of two synchronous components, or the asynchronous one of a mixed pair")
         .with_help("write `master NAME` after the number of arrays; NAME is one of its two ends")
-}
-
-/// An unknown unit of time.
-pub(crate) fn unknown_unit(span: Span, unit: &str) -> Diagnostic {
-    Diagnostic::error("time-unit", span, format!("`{unit}` is not a unit of time"))
-        .here("a time needs a unit")
-        .with_help("write `ns`, `us`, `ms` or `s`")
 }
 
 /// A time that is no whole number of ticks.

@@ -13,6 +13,30 @@ pub(crate) fn no_processor(span: Span) -> Diagnostic {
         .with_help("write `processors 1`, or more")
 }
 
+/// An unknown unit of time behind this number.
+pub(crate) fn unknown_unit(span: Span, number: &str, unit: &str) -> Diagnostic {
+    Diagnostic::error("time-unit", span, format!("`{unit}` is not a unit of time"))
+        .here("a time needs a unit")
+        .with_help(match period(number, unit) {
+            Some(nanoseconds) => {
+                format!("{number} {unit} is once in {nanoseconds} ns: write a time, in `ns`, `us`, `ms` or `s`")
+            }
+            None => "write `ns`, `us`, `ms` or `s`".to_string(),
+        })
+}
+
+/// How long a cycle of this frequency takes, in nanoseconds.
+fn period(number: &str, unit: &str) -> Option<u64> {
+    let hertz = match unit {
+        "Hz" => 1.0,
+        "kHz" => 1e3,
+        "MHz" => 1e6,
+        _ => return None,
+    };
+    let nanoseconds = 1e9 / (number.parse::<f64>().ok()? * hertz);
+    nanoseconds.is_finite().then_some(nanoseconds.round() as u64)
+}
+
 /// A period of no length.
 pub(crate) fn no_period(span: Span) -> Diagnostic {
     Diagnostic::error("time-unit", span, "a period takes at least a tick")

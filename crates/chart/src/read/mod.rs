@@ -35,7 +35,7 @@ pub fn read(file: FileId, parse: &Parse) -> (Chart, Vec<Diagnostic>) {
 }
 
 fn read_with(file: FileId, parse: &Parse, imported: import::Imported) -> (Chart, Vec<Diagnostic>) {
-    let mut reader = Reader { file, faults: parse.diagnostics.clone() };
+    let mut reader = Reader { file, faults: parse.diagnostics.clone(), broken: Vec::new() };
     let import::Imported { charts, models, places, patterns, beyond } = imported;
     let mut chart = Chart { imports: models, places, charts, patterns, beyond, ..Chart::default() };
     if let Some(tree) = ChartFile::cast(parse.syntax()) {
@@ -49,6 +49,8 @@ fn read_with(file: FileId, parse: &Parse, imported: import::Imported) -> (Chart,
 struct Reader {
     file: FileId,
     faults: Vec<Diagnostic>,
+    /// The names of channels of which the text says too little.
+    broken: Vec<String>,
 }
 
 impl Reader {

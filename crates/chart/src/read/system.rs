@@ -217,7 +217,7 @@ impl Reader {
     fn measure(&mut self, quantity: &ast::Quantity, number: &SyntaxToken) -> Option<u64> {
         let unit = quantity.unit()?;
         let Some(scale) = quantity.unit_ns() else {
-            self.faults.push(fault::unknown_unit(self.span(&unit), unit.text()));
+            self.faults.push(fault::times::unknown_unit(self.span(&unit), number.text(), unit.text()));
             return None;
         };
         let exact = number.text().parse::<f64>().ok()? * scale as f64;
@@ -355,7 +355,7 @@ impl Reader {
     fn channels_named(&mut self, name: &SyntaxToken, system: &System) -> Vec<usize> {
         let is_drawn = |index: &usize| system.channels[*index].drawn == name.text();
         let found: Vec<usize> = (0..system.channels.len()).filter(is_drawn).collect();
-        if found.is_empty() {
+        if found.is_empty() && !self.broken.iter().any(|broken| broken == name.text()) {
             let known: Vec<&str> = system.channels.iter().map(|channel| channel.drawn.as_str()).collect();
             self.faults.push(fault::unknown(self.span(name), "channel", name.text(), &known));
         }
@@ -387,7 +387,11 @@ impl Reader {
                 None => readers.push((to, place)),
             }
         }
-        let (Some(from), Some(kind)) = (from, node.kind()) else { return };
+        let kind = node.kind().filter(|kind| kind.is_buffer() || kind.is_queue() || kind.is_shared());
+        let (Some(from), Some(kind)) = (from, kind) else {
+            self.broken.push(name.text().to_string());
+            return;
+        };
         let message = self.message(node.message());
         let ends: Vec<usize> = readers.iter().map(|(to, _)| *to).chain([from]).collect();
         let said = kind.master().and_then(|master| self.component_named(Some(master), system));
@@ -397,11 +401,13 @@ impl Reader {
         }
         // A number that does not fit is no number of places either.
         let size = kind.size().map_or(2, |size| size.text().parse().unwrap_or(0));
+        let place = kind.size().map_or(span, |size| self.span(&size));
         if kind.is_queue() && size == 0 {
-            self.faults.push(fault::channel_ends(span, name.text(), "a queue has one place at least"));
+            self.faults.push(fault::channel_size(place, name.text(), "a queue has one place at least", "queue 1"));
         }
         if kind.is_buffer() && !ast::ChannelKind::ARRAYS.contains(&size) {
-            self.faults.push(fault::channel_ends(span, name.text(), "a swinging buffer has two to eight arrays"));
+            let reason = "a swinging buffer has two to eight arrays";
+            self.faults.push(fault::channel_size(place, name.text(), reason, "swinging buffer 2"));
         }
         let several = readers.len() > 1;
         for (to, _) in readers {

@@ -13,9 +13,8 @@ use crate::tell::Verdicts;
 /// this check does not count, so then the search goes on past such states.
 pub(super) fn as_it_is(asked: &Asked, extent: &Extent, interrupt: &Interrupt) -> Result<Report, NoStart> {
     let mut report = asked.verified(extent, (None, true), interrupt)?;
-    let rests = |verdict: &Verdict| {
-        verdict.subject == Subject::NoDeadlock && matches!(verdict.outcome, Outcome::Violated(_))
-    };
+    let rests =
+        |verdict: &Verdict| verdict.subject == Subject::NoDeadlock && matches!(verdict.outcome, Outcome::Violated(_));
     let Some(at) = report.verdicts.iter().position(rests) else { return Ok(report) };
     let resting = report.verdicts.swap_remove(at);
     let may_rest = Counting { may_rest: true, ..Counting::default() };

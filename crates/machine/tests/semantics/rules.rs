@@ -480,3 +480,27 @@ fn the_location_stands_in_the_place_of_result() {
         "#]],
     );
 }
+
+#[test]
+fn agents_are_found_by_name_and_other_elements_are_not() {
+    check(
+        "signature:
+            domain Waiter subsetof Agent
+            abstract domain Table
+            static boss: Agent
+            static anna: Waiter
+            static corner: Table
+            controlled found: String -> Agent
+        definitions:
+            main rule r_Main = par
+                found(\"boss\") := getAgent(\"boss\")
+                found(\"anna\") := getAgent(\"anna\")
+                found(\"corner\") := getAgent(\"corner\")
+            endpar
+        default init s:",
+        1,
+        expect![[r#"
+            1: found("anna")=anna found("boss")=boss
+        "#]],
+    );
+}

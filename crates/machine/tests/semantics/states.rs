@@ -267,30 +267,6 @@ fn an_element_defined_as_itself_is_an_element() {
     );
 }
 
-#[test]
-fn agents_are_found_by_name_and_other_elements_are_not() {
-    check(
-        "signature:
-            domain Waiter subsetof Agent
-            abstract domain Table
-            static boss: Agent
-            static anna: Waiter
-            static corner: Table
-            controlled found: String -> Agent
-        definitions:
-            main rule r_Main = par
-                found(\"boss\") := getAgent(\"boss\")
-                found(\"anna\") := getAgent(\"anna\")
-                found(\"corner\") := getAgent(\"corner\")
-            endpar
-        default init s:",
-        1,
-        expect![[r#"
-            1: found("anna")=anna found("boss")=boss
-        "#]],
-    );
-}
-
 /// Locations come and go, so that they are numbered anew in between; a domain grows; inputs are asked for.
 #[test]
 fn going_back_is_as_if_nothing_had_been_done() {

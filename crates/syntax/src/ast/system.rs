@@ -268,6 +268,10 @@ impl ChannelKind {
     pub fn is_queue(&self) -> bool {
         token(self.syntax(), QUEUE_KW).is_some()
     }
+    /// It is a value without a lock.
+    pub fn is_shared(&self) -> bool {
+        token(self.syntax(), SHARED_KW).is_some()
+    }
     /// The number of arrays or of messages.
     pub fn size(&self) -> Option<SyntaxToken> {
         token(self.syntax(), INTEGER)

@@ -14,7 +14,7 @@ pub(crate) fn replacement(operator: &str) -> Option<&'static str> {
         "||" | "\\/" | "∨" => "or",
         "!" | "~" | "¬" => "not",
         "%" => "mod",
-        "=>" | "⇒" | "→" => "implies",
+        "=>" | "->" | "⇒" | "→" => "implies",
         "<=>" | "⇔" | "↔" => "iff",
         "**" => "^",
         "≤" => "<=",

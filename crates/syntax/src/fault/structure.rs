@@ -49,6 +49,13 @@ pub(crate) fn expected_token(found: Found<'_>, kind: SyntaxKind, context: &str) 
         .with_help(format!("write {wanted}"))
 }
 
+/// What kind of channel it is, is missing.
+pub(crate) fn expected_channel_kind(found: Found<'_>) -> Diagnostic {
+    Diagnostic::error("expected-token", found.span, format!("expected the kind of the channel, found {found}"))
+        .here("how it hands over its data is missing here")
+        .with_help("write `swinging buffer 2`, `queue 8` or `shared value`, with any numbers")
+}
+
 /// A name of another class than the place asks for.
 pub(crate) fn name_class(found: Found<'_>, kind: SyntaxKind) -> Diagnostic {
     let fault = Diagnostic::error("name-class", found.span, format!("`{}` cannot be {}", found.text, name_of(kind)));

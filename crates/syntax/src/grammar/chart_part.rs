@@ -54,6 +54,19 @@ pub(super) fn no_item(p: &mut Parser<'_>, wanted: &str, starts: impl Fn(&Parser<
     p.finish();
 }
 
+/// Skips what follows on the line of a fault: it would be told again as something that starts nothing.
+pub(super) fn rest_of_line(p: &mut Parser<'_>, starts: impl Fn(&Parser<'_>) -> bool) {
+    let goes_on = |p: &Parser<'_>| !p.at(EOF) && !p.on_new_line() && keyword(p, &ENDS).is_none() && !starts(p);
+    if !goes_on(p) {
+        return;
+    }
+    p.start(ERROR);
+    while goes_on(p) {
+        p.bump();
+    }
+    p.finish();
+}
+
 /// A name of any shape.
 pub(super) fn shape_name(p: &mut Parser<'_>) -> bool {
     if keyword(p, &ENDS).is_none() {

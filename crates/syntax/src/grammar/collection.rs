@@ -19,7 +19,11 @@ pub(super) fn collection(p: &mut Parser<'_>) {
         _ => GT,
     };
     p.bump_opener(close);
-    let within = if close == GT { Within::Bag } else { Within::Plain };
+    let within = match close {
+        GT => Within::Bag,
+        R_BRACE => Within::Braces,
+        _ => Within::Plain,
+    };
     let kind = inside(p, within, |p| contents(p, close));
     recovery::end(p);
     p.start_at(checkpoint, kind);

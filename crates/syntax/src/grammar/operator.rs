@@ -43,6 +43,7 @@ pub(super) fn infix_power(p: &Parser<'_>) -> Option<u8> {
         IN_KW if p.within == Within::Bindings && p.find_on_line(R_PAREN).is_none() => None, // `let ($x = a in` lacks its `)`
         IN_KW => Some(RELATION),
         ASSIGN => Some(RELATION), // meant as `=`; reported when it is taken
+        ARROW if p.within == Within::Plain => Some(LOWEST), // meant as `implies`
         PLUS | MINUS => Some(SUM),
         STAR | SLASH => Some(PRODUCT),
         CARET => Some(POWER),
@@ -64,6 +65,11 @@ pub(super) fn infix(p: &mut Parser<'_>) {
             let found = p.found();
             p.fault(fault::foreign_operator(found.span, "<>"));
             p.bump();
+            p.bump();
+        }
+        ARROW => {
+            let found = p.found();
+            p.fault(fault::foreign_operator(found.span, "->"));
             p.bump();
         }
         ASSIGN => {

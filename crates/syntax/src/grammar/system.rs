@@ -2,7 +2,7 @@
 //!
 //! In: the cursor at `system`. Out: SYSTEM_CHART. Every length of time is a number and a unit.
 
-use super::chart_part::{block, eat_word, expect_word, keyword, no_item, rule_link, shape_name};
+use super::chart_part::{block, eat_word, expect_word, keyword, no_item, rest_of_line, rule_link, shape_name};
 use super::domain::domain;
 use crate::SyntaxKind::{self, *};
 use crate::fault;
@@ -245,21 +245,24 @@ fn channel(p: &mut Parser<'_>) {
 /// `swinging buffer N master NAME`, `queue N`, `shared value`
 fn channel_kind(p: &mut Parser<'_>) {
     p.start(CHANNEL_KIND);
-    if eat_word(p, SWINGING_KW) {
-        if expect_word(p, BUFFER_KW, "behind `swinging`") {
-            p.expect(INTEGER, "as the number of arrays");
-        }
-        if eat_word(p, MASTER_KW) {
+    let complete = if eat_word(p, SWINGING_KW) {
+        let sized = expect_word(p, BUFFER_KW, "behind `swinging`") && p.expect(INTEGER, "as the number of arrays");
+        if sized && eat_word(p, MASTER_KW) {
             shape_name(p);
         }
+        sized
     } else if eat_word(p, QUEUE_KW) {
-        p.expect(INTEGER, "as the capacity of the queue");
+        p.expect(INTEGER, "as the capacity of the queue")
     } else if p.at(SHARED_KW) {
         p.bump();
-        expect_word(p, VALUE_KW, "behind `shared`");
+        expect_word(p, VALUE_KW, "behind `shared`")
     } else {
         let found = p.missing();
-        p.fault(fault::expected_token(found, SWINGING_KW, "or `queue` or `shared` behind a channel"));
+        p.fault(fault::expected_channel_kind(found));
+        false
+    };
+    if !complete {
+        rest_of_line(p, starts_item);
     }
     p.finish();
 }

@@ -317,6 +317,8 @@ mod tests {
         check("a == b", expect!["BINARY(a == b) !foreign-operator"]);
         check("a && !b", expect!["BINARY(a && UNARY(! b)) !foreign-operator !foreign-operator"]);
         check("a <> b", expect!["BINARY(a < > b) !foreign-operator"]);
+        check("(a -> b or c)", expect!["PAREN(( BINARY(a -> BINARY(b or c)) )) !foreign-operator"]);
+        check("{a -> b}", expect!["MAP({ MAP_ENTRY(a -> b) })"]);
         check("a := b", expect!["BINARY(a := b) !assign-in-term"]);
         check("f()", expect!["FUNCTION(f ARGUMENT_LIST(( ))) !expected-term"]);
         check("f(a", expect!["FUNCTION(f ARGUMENT_LIST(( a)) !missing-end"]);

@@ -27,6 +27,8 @@ pub(crate) enum Within {
     Plain,
     /// A bag, which a bare `>` closes.
     Bag,
+    /// Braces, where `->` stands between a key and its value.
+    Braces,
     /// The bindings of a `let`, after which `in` stands.
     Bindings,
 }
