@@ -45,7 +45,7 @@ pub use chart::{
     Arrow, Chart, Composite, Control, End, History, Layout, Machine, Parameter, Pattern, Refinement, Shape, ShapeId,
     ShapeKind, WORDS,
 };
-pub use check::{Probed, built_faults, check, probed, stateless};
+pub use check::{Probed, built_faults, check, outdated, probed, stateless};
 pub use computing::{ComponentMachine, Computing, Content, Feed, Take};
 pub use dump::dump;
 pub use export::scxml_of;

@@ -92,6 +92,50 @@ fn a_machine_begins_where_its_chart_does() {
     assert_eq!(differs("skip", ""), one(Severity::Warning, idle));
 }
 
+/// What only a chart's machines set is not set by others, and not before they run.
+#[test]
+fn patterns_and_histories_begin_undef_and_are_left_to_their_machines() {
+    let drawn = chart(
+        "chart Door machine door control mode initial state off composite state working history
+         initial state shut state open guard push shut -> push yes -> open endstate instance looking of look
+         guard power guard cut off -> power yes -> working working -> cut yes -> looking -> off endmachine
+         pattern look control eye state first state second guard seen guard again action grip
+         enter -> first -> seen yes -> grip -> second -> again yes -> exit endpattern",
+    );
+    let built = build(&drawn, &Known::default(), None).expect("there was no file").text;
+    let differs = |from: &str, to: &str| -> Vec<(Severity, String)> {
+        assert!(built.contains(from), "{built}");
+        let text = built.replacen(from, to, 1);
+        let probed = probed(&drawn, &text).expect("it parses");
+        let checked = checked("Door.asm", &probed.text);
+        assert_eq!(checked.diagnostics, [], "{text}");
+        let faults = chart::check(&drawn, &probed, &checked, &mut NoSolver);
+        faults.into_iter().map(|fault| (fault.severity, fault.message)).collect()
+    };
+    let begins = "default init s0:\n";
+    let begun = |function: &str| differs(begins, &format!("{begins}\tfunction {function}\n"));
+    let one = |severity: Severity, message: &str| vec![(severity, message.to_string())];
+    assert_eq!(differs(begins, begins), []);
+    assert_eq!(begun("eye = undef"), []);
+    let eye = "`eye` is undef in the chart until the pattern is entered, and begins with `SECOND` in the model";
+    assert_eq!(begun("eye = SECOND"), one(Severity::Error, eye));
+    let left =
+        "`workingLeft` is undef in the chart until the composite state is left, and begins with `OPEN` in the model";
+    assert_eq!(begun("workingLeft = OPEN"), one(Severity::Error, left));
+    let computed = "that `eye` is undef until the pattern is entered, as in the chart, was not looked at";
+    assert_eq!(begun("eye = if true then SECOND else FIRST endif"), one(Severity::Warning, computed));
+    let sets = |rule: &str, function: &str| {
+        let message = format!("`{rule}` sets `{function}`, which the chart leaves to its machine: no arrow shows that");
+        one(Severity::Error, &message)
+    };
+    let main = "main rule r_Main =\n\t\tr_door[]";
+    let beside = |rule: &str| differs(main, &format!("main rule r_Main = par r_door[] {rule} endpar"));
+    assert_eq!(beside("skip"), []);
+    assert_eq!(beside("if mode = OFF and cut then mode := OPEN endif"), sets("r_Main", "mode"));
+    assert_eq!(beside("if cut then workingLeft := OPEN endif"), sets("r_Main", "workingLeft"));
+    assert_eq!(differs("rule r_grip = skip", "rule r_grip = mode := OFF"), sets("r_grip", "mode"));
+}
+
 /// Where the control variable is set to what it is and to something else, no step can be made.
 #[test]
 fn staying_counts_as_nothing_unless_something_else_leaves() {

@@ -145,6 +145,24 @@ fn built() -> String {
 }
 
 #[test]
+fn what_building_anew_would_define_otherwise_is_told() {
+    let text = built();
+    let mut drawn = load(CELL, SEQUENCER).chart;
+    let mut files = files(&SEQUENCER.replace("import Messages", "import ../Messages"));
+    let known = Known::completed(&mut drawn, "Imports.asm", &mut files).expect("the imports have no faults");
+    let told = |model: &str| -> Vec<String> {
+        let faults = chart::outdated(&drawn, &known, syntax::FileId(0), model);
+        faults.into_iter().map(|fault| fault.message).collect()
+    };
+    assert_eq!(told(&text), [""; 0]);
+    assert_eq!(told(&text.replace("= mq_taken(codes) !=", "=\n// new?\n mq_taken(codes)   !=")), [""; 0]);
+    let inverted = text.replace("= mq_taken(codes) !=", "= mq_taken(codes) =");
+    assert_eq!(told(&inverted), ["the definition of `sequencer_isNewCodes` differs from what the chart is built to"]);
+    let line = text.lines().find(|line| line.contains("function sequencer_isNewCodes")).expect("it is built");
+    assert_eq!(told(&text.replace(line, "")), ["the model lacks the definition of `sequencer_isNewCodes`"]);
+}
+
+#[test]
 fn a_machine_becomes_a_part_of_its_component() {
     let loaded = load(CELL, SEQUENCER);
     assert_eq!(loaded.diagnostics, []);

@@ -204,7 +204,7 @@ fn normal_text(node: &SyntaxNode) -> String {
 }
 
 /// The text of a node without its layout, with variables numbered in order of appearance.
-fn normal(node: &SyntaxNode) -> String {
+pub(super) fn normal(node: &SyntaxNode) -> String {
     let mut variables: Vec<String> = Vec::new();
     let mut words = Vec::new();
     for token in node.descendants_with_tokens().filter_map(|element| element.into_token()) {

@@ -7,6 +7,7 @@
 //! Both rules are executed symbolically for each value of the control variable. Their effects are compared exactly, as
 //! propositional formulas over the tests. LIMIT: tests with different texts count as different.
 
+mod anew;
 mod ground;
 mod paths;
 pub(crate) mod system;
@@ -14,11 +15,13 @@ pub(crate) mod system;
 use std::collections::BTreeSet;
 use std::ops::Range;
 
+pub use anew::outdated;
+
 use model::{Checked, FunctionId, Model, RuleId};
 use solve::Solver;
 use syntax::{Diagnostic, Severity, Span, SyntaxKind};
 
-use crate::begin::{self, Otherwise};
+use crate::begin::{self, Initial, Otherwise};
 use crate::build::{call, control_location, machine_rule, rule_name, state_value};
 use crate::chart::{Chart, Control, Machine, ShapeKind};
 use crate::differ::{by_effect, difference};
@@ -206,10 +209,25 @@ fn one(chart: &Chart, machine: &Machine, probe: &str, model: &Model, faults: &mu
     if let Some(otherwise) = begin::otherwise(chart, machine, model, rule, controlled) {
         let first = machine.initial().map_or(machine.span, |id| machine.shape(id).span);
         faults.push(match otherwise {
-            Otherwise::NotRun => fault::machine_not_run(place, &name, declared.span),
-            Otherwise::In { drawn, written, place } => fault::other_beginning(first, &drawn, &written, place),
-            Otherwise::Computed { drawn, place } => fault::beginning_not_compared(first, &drawn, place),
+            Otherwise::NotRun => fault::beginning::machine_not_run(place, &name, declared.span),
+            Otherwise::In { drawn, written, place } => {
+                fault::beginning::other_beginning(first, &drawn, &written, place)
+            }
+            Otherwise::Computed { drawn, place } => fault::beginning::beginning_not_compared(first, &drawn, place),
         });
+    }
+    for early in begin::too_early(chart, machine, model) {
+        faults.push(match early.given {
+            Initial::Value(written, at) => {
+                fault::beginning::begins_too_early(early.span, (&early.function, early.until), &written, at)
+            }
+            Initial::Computed(at) => {
+                fault::beginning::undef_not_compared(early.span, (&early.function, early.until), at)
+            }
+        });
+    }
+    for (function, rule, span) in begin::intruders(chart, machine, model) {
+        faults.push(fault::beginning::set_elsewhere(place, &function, &rule, span));
     }
     let (function, location, origins) = match location {
         Some((id, location)) => (id, location, origins(model, id)),

@@ -3,6 +3,7 @@
 //! In: the place, and what is there. Out: a diagnostic whose id is one of [`IDS`] and has a page `spec/faults/<id>.md`.
 
 pub(crate) mod answer;
+pub(crate) mod beginning;
 pub(crate) mod component;
 pub(crate) mod foreign;
 pub(crate) mod import;
@@ -302,39 +303,6 @@ pub(crate) fn chart_differs(
     fault
         .with_label(sides.rule.0, sides.rule.1)
         .with_help("change the chart or the rule; `groundstate chart build` writes the rule as the chart says")
-}
-
-/// A machine that the model has a rule for, which nothing calls.
-pub(crate) fn machine_not_run(span: Span, rule: &str, declared: Span) -> Diagnostic {
-    Diagnostic::warning("chart-differs", span, format!("nothing runs the machine: no rule that runs calls `{rule}`"))
-        .here("this machine")
-        .with_label(declared, "the main rule does not lead here")
-        .with_help("call it in the main rule, or declare it as a `pattern`, which runs where it is called")
-}
-
-/// A machine that the model begins in another state.
-pub(crate) fn other_beginning(span: Span, drawn: &str, written: &str, place: Option<Span>) -> Diagnostic {
-    let fault = Diagnostic::error(
-        "chart-differs",
-        span,
-        format!("the chart begins in `{drawn}`, and the model in `{written}`"),
-    )
-    .here("the chart's first state");
-    match place {
-        Some(place) => fault
-            .with_label(place, "the model's")
-            .with_help("change the initial value, or say `initial` of the other state"),
-        None => fault.with_help("give the control variable this value in the initial state, which sets nothing"),
-    }
-}
-
-/// A machine whose first state is computed in the model.
-pub(crate) fn beginning_not_compared(span: Span, drawn: &str, place: Span) -> Diagnostic {
-    let message = format!("that the model begins in `{drawn}`, as the chart does, was not looked at");
-    Diagnostic::warning("chart-differs", span, message)
-        .here("the chart's first state")
-        .with_label(place, "the model computes its own")
-        .with_help("write it as a literal to have it compared")
 }
 
 /// A difference between a system and its model: the place in the chart, the message, the place in the model.

@@ -71,14 +71,18 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     let mut chart = loaded.chart;
     checked.sources = loaded.sources;
     // Faults of the imports are also the model's and are reported there.
-    let _ = Known::completed(
+    let known = Known::completed(
         &mut chart,
         &arguments.file.with_file_name("Imports.asm").display().to_string(),
         &mut shell.disk(),
     );
     let model = SourceFile::new(path.display().to_string(), specification);
     let mut solver = Process::find(arguments.solver.as_deref());
-    let faults = chart::check(&chart, &probed, &checked, &mut solver);
+    let mut faults = chart::check(&chart, &probed, &checked, &mut solver);
+    // What is told already may be why it is outdated.
+    if let Some(known) = known.ok().filter(|_| !groundstate::has_errors(&faults)) {
+        faults.extend(chart::outdated(&chart, &known, checked.model.root, &model.text));
+    }
     let (mut notes, faults): (Vec<_>, Vec<_>) = faults.into_iter().partition(|fault| fault.severity == Severity::Note);
     let differs = groundstate::has_errors(&faults);
     let owed = groundstate::owed(&root, &chart, &model, &mut shell.disk());
