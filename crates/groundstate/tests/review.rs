@@ -114,3 +114,56 @@ fn what_keeps_its_initial_value_takes_it() {
         &["MP5 unknown", "MP6 unknown"],
     );
 }
+
+/// What a model of this signature, main rule and initial state is found to have never, as `MP7` and lines.
+fn never(signature: &str, main: &str, init: &str) -> Vec<String> {
+    let text = format!(
+        "asm M\nimport StandardLibrary\nsignature:\nenum domain D = {{AA | BB}}\n{signature}\ndefinitions:\nmain rule r_Main = {main}\ndefault init s0: {init}"
+    );
+    let told = findings(&text);
+    let mut lines = told.lines().skip_while(|line| !line.starts_with("MP7")).map(|line| line.trim().to_string());
+    let outcome = lines.next().unwrap_or_default();
+    std::iter::once(outcome).chain(lines.take_while(|line| !line.starts_with("states"))).collect()
+}
+
+/// The guard of a choice reads what it refuses a candidate for, if the step is made with another.
+#[test]
+fn what_refuses_a_candidate_is_read() {
+    let guarded = "controlled locked: D -> Boolean\ncontrolled n: D -> Boolean";
+    let opens = "choose $d in D with not locked($d) do par n($d) := not n($d) locked(BB) := locked(BB) endpar";
+    let both = "function locked($d in D) = $d = AA function n($d in D) = false";
+    // Line 5 is `locked`, line 6 is `n`: `n(AA)` is never read, and neither it nor `locked(AA)` is updated.
+    assert_eq!(never(guarded, opens, both), ["MP7 violated", "5 never-updated", "6 never-updated", "6 never-read"]);
+    let none = "choose $d in D with armed do n($d) := not n($d) ifnone t := not t";
+    let init = "function armed = false function n($d in D) = false function t = false";
+    let told = never("controlled armed: Boolean\ncontrolled n: D -> Boolean\ncontrolled t: Boolean", none, init);
+    assert_eq!(told, ["MP7 violated", "5 never-updated", "6 never-updated", "6 never-read"]);
+    // No step is made in which the candidate is refused.
+    let only = "choose $d in D with armed do n := not n ifnone n := undef and 1 / 0 = 1";
+    let told =
+        never("controlled armed: Boolean\ncontrolled n: Boolean", only, "function armed = false function n = true");
+    assert_eq!(told, ["MP7 violated", "5 never-updated", "5 never-read", "6 never-updated", "6 never-read"]);
+}
+
+#[test]
+fn what_initial_values_read_decides_how_a_run_begins() {
+    let signature = "monitored wanted: D\ncontrolled hot: Boolean";
+    let init = "function hot = (wanted = BB)";
+    assert_eq!(never(signature, "if hot then hot := false endif", init), ["MP7 holds"]);
+}
+
+#[test]
+fn locations_are_told_apart_where_only_an_undefined_one_is_touched() {
+    let signature = "controlled count: D -> Boolean\ncontrolled cur: D";
+    let told =
+        never(signature, "par count(cur) := not count(cur) cur := undef endpar", "function count($d in D) = false");
+    assert_eq!(told, ["MP7 violated", "5 never-updated", "5 never-read"]);
+}
+
+/// An update that has not been run may yet turn out to be trivial.
+#[test]
+fn whether_an_update_is_trivial_is_unknown_before_it_runs() {
+    let text = "asm M\nimport StandardLibrary\nsignature:\nmonitored level: Integer\ncontrolled on: Boolean\ndefinitions:\n\
+        main rule r_Main = if level > 3 then on := on endif\ndefault init s0: function on = false";
+    assert!(findings(text).contains("MP4 unknown\n"), "{}", findings(text));
+}

@@ -239,6 +239,11 @@ impl Store {
             && self.carriers == other.carriers
     }
 
+    /// Whether a location keeps its number for good: it is one of the declared arguments.
+    pub fn is_lasting(&self, index: LocationIndex) -> bool {
+        (index as usize) < self.len() - self.sparse_len()
+    }
+
     /// How many locations have a number beyond the dense ones.
     pub(crate) fn sparse_len(&self) -> usize {
         self.sparse_locations.len()

@@ -39,8 +39,7 @@ impl Core {
 
     /// The number of a location that keeps it for good.
     fn lasting(&self, found: Option<u32>) -> Option<u32> {
-        let dense = (self.store.len() - self.store.sparse_len()) as u32;
-        found.filter(|index| *index < dense)
+        found.filter(|index| self.store.is_lasting(*index))
     }
 
     /// A location is read.

@@ -44,7 +44,7 @@ use crate::starts::origin::Origins;
 use crate::starts::{Begun, Starts, each_start};
 use makers::Makers;
 use paths::Reading;
-use sighting::Sighting;
+use sighting::{Refusals, Sighting};
 
 /// What became of one alternative.
 pub(super) struct Attempt {
@@ -79,6 +79,7 @@ pub struct Explorer {
     pub(super) sightings: Vec<Sighting>,
     /// What was seen in steps that are faults.
     pub(super) in_faults: FxHashSet<Observation>,
+    pub(super) refusals: Refusals,
 }
 
 impl Explorer {
@@ -199,6 +200,7 @@ impl Explorer {
             unbounded: BTreeSet::new(),
             sightings: Vec::new(),
             in_faults: FxHashSet::default(),
+            refusals: Refusals::default(),
         };
         explorer.leave_out_starts();
         if observed {
@@ -279,6 +281,7 @@ impl Explorer {
         let mut expansion = Expansion::default();
         let mut found = Successors::new(out);
         self.branches.first();
+        self.refusals.begin();
         loop {
             if self.settings.interrupt.is_raised() {
                 return Ok(Expansion { interrupted: true, ..expansion });
@@ -300,6 +303,7 @@ impl Explorer {
                 }
             }
             if !self.branches.next() {
+                self.sight_refusals();
                 return Ok(expansion);
             }
         }
@@ -344,6 +348,7 @@ impl Explorer {
             outcome = self.check_step(&mut attempt, outcome, read);
         }
         if self.branches.dead {
+            self.note_refusal();
             return Ok(None);
         }
         match outcome {

@@ -122,6 +122,7 @@ impl Explorer {
     /// A successor does not fit.
     pub fn paths_read(&mut self, state: &[u64], visitor: &mut dyn Visitor) -> Result<bool, Widening> {
         self.branches.first();
+        self.refusals.begin();
         loop {
             if self.settings.interrupt.is_raised() {
                 return Ok(false);

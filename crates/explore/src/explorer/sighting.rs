@@ -14,6 +14,31 @@ pub struct Sighting {
     pub made: bool,
 }
 
+/// The candidates of one state's choices that their guards refuse. What such a guard reads is read in the steps that take another candidate of
+/// the same choice.
+#[derive(Debug, Default)]
+pub(crate) struct Refusals {
+    /// The answers that lead to each, and what its guard reads that had not been seen.
+    pub refused: Vec<(Vec<u32>, Vec<Observation>)>,
+    /// The answers that lead to each step that can be made.
+    pub made: Vec<Vec<u32>>,
+    /// Something was read by a guard in no step that can be made.
+    pub unmade: bool,
+}
+
+impl Refusals {
+    /// Another state is looked at.
+    pub fn begin(&mut self) {
+        self.refused.clear();
+        self.made.clear();
+    }
+
+    /// Whether a step with these answers is one in which a candidate was refused.
+    pub fn is_of(refused: &[u32], made: &[u32]) -> bool {
+        refused.split_last().is_some_and(|(_, before)| made.starts_with(before))
+    }
+}
+
 /// By field of the packed states, the codes met.
 #[derive(Debug, Clone, Default)]
 pub struct Met {

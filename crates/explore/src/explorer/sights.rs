@@ -2,7 +2,7 @@
 //!
 //! In: the steps that its machine makes, states. Out: [`Sighting`]s with the answers that lead to them, [`Met`] values by
 //! location. Steps that are remembered are those of some step that the machine made, so they show nothing new. An
-//! alternative that is dead or that an assumption leaves out does not count.
+//! alternative that an assumption leaves out does not count; of one that is dead, what its guard reads does.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -12,7 +12,7 @@ use rustc_hash::FxHashSet;
 
 use crate::alternatives::kind::AlternativeKind;
 use crate::explorer::Explorer;
-use crate::explorer::sighting::{Met, Sighting};
+use crate::explorer::sighting::{Met, Refusals, Sighting};
 use crate::packed::kept::is_input;
 use crate::packed::words::NOWHERE;
 
@@ -21,20 +21,71 @@ impl Explorer {
     pub(super) fn sight(&mut self, kind: AlternativeKind) {
         let Some(observations) = self.machine.watched() else { return };
         let seen = observations.take();
-        if seen.is_empty() {
-            return;
-        }
         let made = kind == AlternativeKind::Next;
         if kind == AlternativeKind::Excluded || kind == AlternativeKind::Unbounded {
             return;
         }
         let picks: Vec<u32> = self.branches.answers().iter().map(|asked| asked.taken).collect();
+        if made {
+            self.refusals.made.push(picks.clone());
+        }
         for observation in seen {
             let is_new = if made { observations.learn(observation) } else { self.in_faults.insert(observation) };
             if is_new {
                 self.sightings.push(Sighting { observation, picks: picks.clone(), made });
             }
         }
+    }
+
+    /// Notes what the guard of a candidate read that was refused.
+    pub(super) fn note_refusal(&mut self) {
+        let Some(observations) = self.machine.watched() else { return };
+        let mut read = observations.take();
+        read.retain(|observation| matches!(observation, Observation::Read(..)));
+        let picks = self.branches.answers().iter().map(|asked| asked.taken).collect();
+        self.refusals.refused.push((picks, read));
+    }
+
+    /// What guards of refused candidates read belongs to a step that takes another one.
+    pub(super) fn sight_refusals(&mut self) {
+        let Some(observations) = self.machine.watched() else { return };
+        let Refusals { refused, made, unmade } = &mut self.refusals;
+        for (picks, read) in refused.drain(..) {
+            let step = made.iter().find(|made| Refusals::is_of(&picks, made));
+            *unmade |= step.is_none() && !read.is_empty();
+            for (observation, picks) in read.into_iter().zip(step.into_iter().cycle()) {
+                if observations.learn(observation) {
+                    self.sightings.push(Sighting { observation, picks: picks.clone(), made: true });
+                }
+            }
+        }
+    }
+
+    /// Whether a guard read something, in the states expanded so far, in no step that can be made.
+    pub fn reads_in_no_step(&self) -> bool {
+        self.refusals.unmade
+    }
+
+    /// The answers that lead to the candidates that were refused among the paths that were gone through last.
+    pub fn refused(&mut self) -> Vec<Vec<u32>> {
+        self.refusals.refused.drain(..).map(|(picks, _)| picks).collect()
+    }
+
+    /// What the guards of refused candidates read in some of the steps with these answers.
+    pub fn read_by_refused(
+        &mut self,
+        state: &[u64],
+        refused: &[Vec<u32>],
+        steps: &[Vec<u32>],
+    ) -> Vec<(Observation, Vec<u32>)> {
+        let mut found = Vec::new();
+        for picks in refused {
+            let Some(step) = steps.iter().find(|step| Refusals::is_of(picks, step)) else { continue };
+            let seen = self.observe(state, picks).into_iter();
+            let read = seen.filter(|observation| matches!(observation, Observation::Read(..)));
+            found.extend(read.map(|observation| (observation, step.clone())));
+        }
+        found
     }
 
     /// What has happened for the first time since this was last asked.
@@ -52,6 +103,13 @@ impl Explorer {
         self.machine.discard();
         let observations = self.machine.watch(former);
         observations.map(|mut observations| observations.take()).unwrap_or_default()
+    }
+
+    /// Whether observations name a location by its number.
+    pub fn is_numbered(&self, location: &Location) -> bool {
+        let store = self.machine.store();
+        let found = store.find(location.function, &location.arguments);
+        found.is_some_and(|index| store.is_lasting(index))
     }
 
     /// The location of a number that an observation names.

@@ -49,8 +49,8 @@ pub fn diagnose_finding(finding: &Finding, review: &Review, program: &Program) -
         Matter::Unused(domain, values) => {
             let name = &program.domain(*domain).name;
             warning("unused-element", never(&format!("has a location with {} of {name}", named(values, program))))
-                .here("has elements that never occur")
-                .with_help("remove them, or see why nothing becomes one of them")
+                .here("has elements that are no location's value")
+                .with_help("see why nothing becomes one of them; remove those that are no arguments either")
         }
         Matter::NeverTaken(function, values) => {
             let function = program.function(*function);

@@ -1,10 +1,11 @@
 //! MP7: controlled locations that no rule updates, and locations that no rule reads.
 //!
-//! Properties do not count as readers: what only they read does not affect runs. Output functions (`out`) need not be
+//! Properties do not count as readers: what only they read does not affect runs; what initial values read does. Output functions (`out`) need not be
 //! read. Functions with few locations are reported location by location, others as a whole.
 
 use std::collections::BTreeSet;
 
+use explore::UnboundedKind;
 use machine::{Location, Observation, Value};
 use model::FunctionKind;
 use program::FunctionId;
@@ -43,6 +44,17 @@ impl Reviewer<'_> {
                 _ => {}
             }
         }
+        // A step that cannot be made for want of an input's values has read it.
+        let unlisted: BTreeSet<FunctionId> = self
+            .survey
+            .unbounded()
+            .iter()
+            .filter_map(|one| match one.kind {
+                UnboundedKind::Input(function) => Some(function),
+                UnboundedKind::Choice | UnboundedKind::Clock | UnboundedKind::Limit | UnboundedKind::Assumption => None,
+            })
+            .collect();
+        let decide_beginnings = self.read_by_initials();
         for index in 0..count {
             let (id, function) = (FunctionId(index as u32), &self.program.functions[index]);
             if function.library || function.element.is_some() || !self.is_own(function.span) {
@@ -51,13 +63,16 @@ impl Reviewer<'_> {
             use FunctionKind::{Controlled, Monitored, Out, Shared};
             let (span, kind) = (function.span, function.kind);
             let all = self.all_locations(id);
+            let numbered = !all.is_empty() && all.iter().all(|location| self.survey.is_numbered(location));
             if matches!(kind, Controlled | Out)
-                && let Some(never) = never(&all, &written[index])
+                && let Some(never) = never(&all, numbered, &written[index])
             {
                 self.find(Meta::LocationUsed, Matter::NeverUpdated(id, never), span);
             }
             if matches!(kind, Controlled | Monitored | Shared)
-                && let Some(never) = never(&all, &read[index])
+                && !decide_beginnings.contains(&id)
+                && !unlisted.contains(&id)
+                && let Some(never) = never(&all, numbered, &read[index])
             {
                 self.find(Meta::LocationUsed, Matter::NeverRead(id, never), span);
             }
@@ -82,13 +97,13 @@ impl Reviewer<'_> {
     }
 }
 
-/// The locations that were not accessed; `None` if there are none. An empty list stands for all.
-fn never(all: &[Location], touched: &Touched) -> Option<Vec<Location>> {
+/// The locations that were not accessed; `None` if there are none. An empty list stands for all. Those without a permanent number are not told
+/// apart; where all that are declared have one, they are none of these.
+fn never(all: &[Location], numbered: bool, touched: &Touched) -> Option<Vec<Location>> {
     if !touched.any {
         return Some(Vec::new());
     }
-    // Locations without a permanent number are not told apart.
-    if touched.locations.is_empty() {
+    if touched.locations.is_empty() && !numbered {
         return None;
     }
     let never: Vec<Location> = all.iter().filter(|location| !touched.locations.contains(location)).cloned().collect();

@@ -142,11 +142,12 @@ pub fn review(
     watch: &mut dyn FnMut(&Progress) -> bool,
 ) -> Result<Review, NoStart> {
     let survey = survey(program, options, false, watch)?;
-    let mut reviewer = Reviewer { model, program, survey, own, findings: Vec::new(), unclear: BTreeSet::new() };
+    let (findings, unclear) = (Vec::new(), BTreeSet::new());
+    let mut reviewer = Reviewer { model, program, survey, own, findings, unclear, unrun_update: false };
     reviewer.rules();
     reviewer.values();
     reviewer.locations();
-    let Reviewer { survey, mut findings, unclear, .. } = reviewer;
+    let Reviewer { survey, mut findings, unclear, unrun_update, .. } = reviewer;
     // Where nothing happens, it says nothing that something does not.
     let nothing_seen = survey.reasons.iter().any(|reason| matches!(reason, Reason::Vacuous | Reason::Stepless));
     findings.retain(|finding| metas.contains(&finding.meta) && !nothing_seen);
@@ -159,6 +160,8 @@ pub fn review(
         match (found, survey.is_complete()) {
             (false, true) if unclear.iter().any(|(of, _)| *of == meta) => MetaOutcome::Unknown,
             (true, complete) if complete || meta.by_event() => MetaOutcome::Violated,
+            // It may run yet, and write what is there.
+            (false, false) if meta == Meta::NotTrivial && unrun_update => MetaOutcome::Unknown,
             (false, complete) if complete || !meta.by_event() => MetaOutcome::Holds,
             _ => MetaOutcome::Unknown,
         }
@@ -174,9 +177,16 @@ struct Reviewer<'a> {
     own: &'a dyn Fn(FileId) -> bool,
     findings: Vec<Finding>,
     unclear: BTreeSet<(Meta, FunctionId)>,
+    /// Some update has not been run in the states that were looked at.
+    unrun_update: bool,
 }
 
 impl Reviewer<'_> {
+    /// The functions that initial values read: what these have decides how a run begins.
+    fn read_by_initials(&self) -> BTreeSet<FunctionId> {
+        self.program.initials.iter().flat_map(|initial| self.program.reads_and_more(&initial.value).0).collect()
+    }
+
     fn find(&mut self, meta: Meta, matter: Matter, span: Span) {
         self.findings.push(Finding { meta, matter, span, witness: None });
     }

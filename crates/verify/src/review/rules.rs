@@ -88,6 +88,7 @@ impl Reviewer<'_> {
         // A rule that lowering removed is not in the program, but rules inside it may be.
         if let Some(here) = went.get(&node.span) {
             if !here.ran {
+                node.walk(&mut |part| self.unrun_update |= matches!(part.kind, RuleKind::Update { .. }));
                 // A branch that does nothing need not run.
                 if !matches!(node.kind, RuleKind::Skip) {
                     let matter = if here.ran_in_faults { Matter::RunsInFaults } else { Matter::NeverRuns };

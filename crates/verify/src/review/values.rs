@@ -108,7 +108,8 @@ impl Reviewer<'_> {
         for value in taken.values().flatten() {
             parts(value, &mut used);
         }
-        let read: BTreeSet<FunctionId> = self.read_functions();
+        let mut read: BTreeSet<FunctionId> = self.read_functions();
+        read.extend(self.read_by_initials());
         for id in read {
             let function = self.program.function(id);
             if function.kind == FunctionKind::Monitored

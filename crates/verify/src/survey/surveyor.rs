@@ -190,6 +190,7 @@ impl<'p> Surveyor<'p> {
             let state: Box<[u64]> = self.survey.table.state(next).into();
             successors.clear();
             let expansion = self.survey.explorer.expand(&state, &mut successors).map_err(Trouble::TooNarrow)?;
+            self.survey.left_out |= self.survey.explorer.reads_in_no_step();
             let closely = match self.care {
                 Care::Least => Some(Vec::new()),
                 Care::Most => self.look_closely(&state)?,
@@ -271,7 +272,8 @@ impl<'p> Surveyor<'p> {
         if !whole.map_err(Trouble::TooNarrow)? {
             return Ok(None);
         }
-        let mut found = Vec::new();
+        let (mut found, mut steps) = (Vec::new(), Vec::new());
+        let refused = self.survey.explorer.refused();
         for (picks, outcome) in paths {
             let made = match outcome {
                 Outcome::Next(next) if self.admits(&next) => true,
@@ -283,7 +285,16 @@ impl<'p> Surveyor<'p> {
                     found.push((observation, made, picks.clone()));
                 }
             }
+            if made {
+                steps.push(picks);
+            }
         }
+        let read = self.survey.explorer.read_by_refused(state, &refused, &steps);
+        found.extend(
+            read.into_iter()
+                .filter(|(observation, _)| self.seen.insert((*observation, true)))
+                .map(|(observation, picks)| (observation, true, picks)),
+        );
         // The explorer's own look at them counts for nothing.
         self.survey.explorer.sightings();
         Ok(Some(found))
@@ -342,6 +353,11 @@ impl Survey {
     /// The location with a number, as observations name it.
     pub fn location(&self, index: u32) -> Location {
         self.explorer.location(index)
+    }
+
+    /// Whether observations name a location by its number.
+    pub fn is_numbered(&self, location: &Location) -> bool {
+        self.explorer.is_numbered(location)
     }
 
     /// The elements of a domain that are the same in all states, if there are at most `most`.
