@@ -5,13 +5,14 @@
 
 mod counterpart;
 mod environment;
+mod reader;
 
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use machine::{Limits, Machine};
 use model::nearest;
-use program::{DomainId, DomainKind, Expression, FunctionId, FunctionKind, Program, Slot, Term, TermList};
+use program::{DomainId, DomainKind, Expression, FunctionId, FunctionKind, Program, Term};
 use syntax::ast::{AstNode, TermFile};
 use syntax::{Diagnostic, FileId, Severity, SourceFile, Sources, Span};
 
@@ -300,37 +301,6 @@ impl Builder {
             }
         }
         Some(all)
-    }
-
-    /// A term of the program that reads a function at its parameters.
-    fn reader(&mut self, side: usize, function: FunctionId) -> Expression {
-        if let Some(known) = self.coupling.readers[side].get(&function) {
-            return known.clone();
-        }
-        let program = Arc::make_mut(&mut self.coupling.programs[side]);
-        let declared = program.function(function).clone();
-        let push = |program: &mut Program, term: Term, domain| {
-            program.terms.push(term);
-            program.term_domains.push(domain);
-            program.term_spans.push(declared.span);
-            program::TermId(program.terms.len() as u32 - 1)
-        };
-        let mut slots = Vec::new();
-        for (slot, domain) in declared.parameters.iter().enumerate() {
-            slots.push(push(program, Term::Slot(Slot(slot as u32)), *domain));
-        }
-        let arguments = TermList { start: program.term_lists.len() as u32, len: slots.len() as u32 };
-        program.term_lists.extend(slots);
-        let term = match declared.definition {
-            Some(_) => Term::Define { function, arguments },
-            None => Term::Read { function, arguments },
-        };
-        let body = push(program, term, declared.codomain);
-        let names = (0..declared.parameters.len()).map(|slot| format!("${slot}")).collect();
-        let frame = declared.parameters.len() as u32;
-        let reader = Expression { parameters: declared.parameters, frame, names, body };
-        self.coupling.readers[side].insert(function, reader.clone());
-        reader
     }
 
     /// A part of the file as a text in which all else is blank, and names of functions are those of the joint model.

@@ -16,4 +16,5 @@ mod small;
 mod spec;
 mod stuck;
 mod unclear;
+mod widened;
 mod workers;

@@ -102,6 +102,8 @@ struct Flow<'p> {
     /// By procedure, what decides that it runs, and with which arguments.
     around: Vec<Nodes>,
     updates: Vec<Vec<Span>>,
+    /// What decides which rule runs where a value is run: another value might be a rule that writes anything.
+    chosen: Nodes,
     /// A procedure's surroundings have grown.
     grown: bool,
 }
@@ -114,6 +116,7 @@ impl<'p> Flow<'p> {
             into_domain: vec![Nodes::new(); program.domains.len()],
             around: vec![Nodes::new(); program.procedures.len()],
             updates: vec![Vec::new(); program.functions.len()],
+            chosen: Nodes::new(),
             grown: true,
         };
         for initial in &program.initials {
@@ -129,6 +132,13 @@ impl<'p> Flow<'p> {
                 flow.rule(program.procedure(*procedure).body, &around);
             }
         }
+        let writable = |kind| matches!(kind, FunctionKind::Controlled | FunctionKind::Shared | FunctionKind::Out);
+        for (into, function) in flow.into_function.iter_mut().zip(&program.functions) {
+            if writable(function.kind) {
+                into.extend(&flow.chosen);
+            }
+        }
+        flow.into_domain.iter_mut().for_each(|into| into.extend(&flow.chosen));
         flow
     }
 
@@ -278,10 +288,10 @@ impl<'p> Flow<'p> {
             Rule::Iterate(body) | Rule::While { body, .. } | Rule::RecursiveWhile { body, .. } => {
                 here.extend(self.all_of(*body));
             }
+            Rule::RunValue { .. } => self.chosen.extend(&here),
             Rule::Skip
             | Rule::Call { .. }
             | Rule::TurboCall { .. }
-            | Rule::RunValue { .. }
             | Rule::RunAgent { .. }
             | Rule::Par(_)
             | Rule::Seq(_)

@@ -37,6 +37,20 @@ fn check(definitions: &str, cone: &str, outside: &str) {
     assert_eq!(names(&program, left), outside, "{definitions}");
 }
 
+/// Another value might be a rule that writes anything.
+#[test]
+fn what_decides_which_rule_runs_decides_all() {
+    let program = program(
+        "asm example\nimport StandardLibrary\nsignature:\ncontrolled plan: Rule\ncontrolled a: Boolean\n\
+         controlled b: Boolean\nmonitored go: Boolean\nmonitored stop: Boolean\ndefinitions:\n\
+         rule r_none = skip\ninvariant inv_a over a: not a\n\
+         main rule r_Main = par plan if go then plan := <<r_none>> endif b := stop endpar\n\
+         default init s0: function a = false function b = false function plan = <<r_none>>\n",
+    );
+    let found = dependence(&program, &[0]);
+    assert_eq!(names(&program, found.cones[0].functions.clone()), "plan a go");
+}
+
 #[test]
 fn cones_by_example() {
     // Values, guards, what a definition reads.
