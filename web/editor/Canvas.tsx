@@ -14,7 +14,7 @@ import { NOTHING } from '../diagram/pick'
 import type { Drawing, Line, Shape as ShapeKind } from '../diagram/protocol'
 import { words } from '../words'
 import { CanvasBar } from './CanvasBar'
-import { useBeyond, useDetail, useFit, useGoTo, useKeptWhole, useLitInView, useSee } from './fit'
+import { useBeyond, useClear, useDetail, useFit, useGoTo, useKeptWhole, useLitInView, useSee } from './fit'
 import type { Chart } from './chart'
 import { type Dropped, useConnecting } from './connect'
 import { Icon } from './icons'
@@ -117,6 +117,7 @@ function Shown({ studio, chart, drawing }: { studio: Studio; chart: Chart; drawi
   const beyond = useBeyond(drawing)
   useKeptWhole(beyond, fit)
   useLitInView(drawing, run.lit)
+  useClear(selection.boxes)
   const detail = useDetail()
   const connecting = useConnecting(studio, chart, toFlow, setDrop)
   const { begin, grip } = connecting

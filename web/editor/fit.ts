@@ -8,6 +8,7 @@ import type { Drawing } from '../diagram/protocol'
 import type { Chart } from './chart'
 
 const ROOM = { left: '68px', right: '36px', top: '28px', bottom: '60px' } as const
+const BESIDE = 16
 const LARGEST = 1.2
 const SMALLEST = 0.1
 
@@ -48,6 +49,41 @@ export function useLitInView(drawing: Drawing, lit: ReadonlyMap<string, unknown>
     if (width > 0 && first && !inView) void flow.setCenter(...middle(first), { zoom, duration: 180 })
     // What is lit is told by `shown`; the same is a new map after each step.
   }, [drawing, flow, shown, size, store])
+}
+
+// The selected shape does not lie under its own properties: the picture makes way, as far as it must, once the pointer is up.
+export function useClear(selected: readonly string[]): void {
+  const flow = useReactFlow()
+  const store = useStoreApi()
+  const id = selected.length === 1 ? selected[0] : undefined
+  useEffect(() => {
+    if (id === undefined) return
+    let timer = 0
+    const clear = (): void => {
+      const shape = document.querySelector(`.react-flow__node[data-id="${CSS.escape(id)}"]`)?.getBoundingClientRect()
+      const pane = store.getState().domNode?.getBoundingClientRect()
+      const panel = document.querySelector('.inspector:not(.folded)')?.getBoundingClientRect()
+      if (!shape || !pane || !panel) return
+      const covered = shape.right > panel.left - BESIDE && shape.left < panel.right + BESIDE && shape.bottom > panel.top - BESIDE && shape.top < panel.bottom
+      if (!covered) return
+      const { x, y, zoom } = flow.getViewport()
+      const up = Math.max(panel.top - BESIDE - shape.bottom, pane.top + BESIDE - shape.top)
+      const left = panel.left - BESIDE - shape.right
+      const right = panel.right + BESIDE - shape.left
+      if (panel.width > pane.width * 0.7) void flow.setViewport({ x, y: y + Math.min(up, 0), zoom }, { duration: 180 })
+      else if (panel.left > pane.left + pane.width / 2) void flow.setViewport({ x: x + left, y, zoom }, { duration: 180 })
+      else void flow.setViewport({ x: x + right, y, zoom }, { duration: 180 })
+    }
+    // By then the panel stands where it stays.
+    const soon = (): void => void (timer = window.setTimeout(clear, 120))
+    const held = store.getState().paneDragging || document.querySelector('.react-flow__node:active') !== null
+    if (held) window.addEventListener('pointerup', soon, { once: true })
+    else soon()
+    return () => {
+      clearTimeout(timer)
+      window.removeEventListener('pointerup', soon)
+    }
+  }, [flow, id, store])
 }
 
 // Brings a shape into view, if it is not there.
