@@ -92,6 +92,32 @@ fn a_machine_begins_where_its_chart_does() {
     assert_eq!(differs("skip", ""), one(Severity::Warning, idle));
 }
 
+/// A domain of parameters that the file has already gets no element.
+#[test]
+fn parameters_of_a_domain_written_by_hand_add_nothing_to_it() {
+    let drawn = chart(
+        "chart Tiny machine tiny ($p in Port) control mode initial state idle state busy guard go
+         idle -> go yes -> busy endmachine",
+    );
+    let built = |existing: Option<&str>| build(&drawn, &Known::default(), existing).expect("it parses").text;
+    assert!(built(None).contains("abstract domain Port\n\tstatic port1: Port\n"), "{}", built(None));
+    let there = "asm Tiny import StandardLibrary signature: enum domain Port = {LEFT | RIGHT} definitions: main rule r_Main = skip";
+    let merged = built(Some(there));
+    assert!(!merged.contains("port1") && merged.contains("mode: Port -> ModeState"), "{merged}");
+    assert_eq!(checked("Tiny.asm", &merged).diagnostics, [], "{merged}");
+}
+
+/// The control variable of a pattern without states would have no value.
+#[test]
+fn a_pattern_without_states_is_told() {
+    let drawn = chart(
+        "chart Nop machine m control mode initial state idle instance ii of pp idle -> ii -> idle endmachine
+         pattern pp control hand action act enter -> act -> exit endpattern",
+    );
+    let told: Vec<String> = chart::stateless(&drawn).into_iter().map(|fault| fault.message).collect();
+    assert_eq!(told, ["the pattern `pp` has no control state: there is nothing to build"]);
+}
+
 /// What only a chart's machines set is not set by others, and not before they run.
 #[test]
 fn patterns_and_histories_begin_undef_and_are_left_to_their_machines() {

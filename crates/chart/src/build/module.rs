@@ -93,9 +93,9 @@ fn domains(chart: &Chart, known: &Known, parts: &mut Parts) {
         let domain = &parameter.domain;
         let simple = domain.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');
         if simple && !known.domains.contains(domain) {
-            add(&mut parts.declarations, domain, format!("abstract domain {domain}\n"), false);
-            let element = format!("{}1", function_name(domain));
-            add(&mut parts.declarations, &element, format!("static {element}: {domain}\n"), false);
+            // A domain that the file has already has elements of its own, or is an enumeration.
+            let text = format!("abstract domain {domain}\nstatic {}1: {domain}\n", function_name(domain));
+            add(&mut parts.declarations, domain, text, false);
         }
     }
 }

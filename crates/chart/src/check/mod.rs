@@ -76,15 +76,19 @@ fn probe_name(index: usize) -> String {
     format!("r_chart_{index}_probe")
 }
 
-/// Machines without a control state, whose control variable would have no value.
+/// Machines and patterns without a control state, whose control variable would have no value.
 pub fn stateless(chart: &Chart) -> Vec<Diagnostic> {
     let is_empty = |machine: &&Machine| {
         let stays = |id| is_block(chart, machine, id) || matches!(machine.shape(id).kind, ShapeKind::State { .. });
-        !machine.is_pattern
-            && matches!(machine.control, Some(Control::Made { .. }))
+        matches!(machine.control, Some(Control::Made { .. }))
             && !machine.numbered().any(|(id, shape)| stays(id) || shape.composite().is_some())
     };
-    chart.machines.iter().filter(is_empty).map(|machine| fault::empty_machine(machine.span, &machine.name)).collect()
+    chart
+        .machines
+        .iter()
+        .filter(is_empty)
+        .map(|machine| fault::empty_machine(machine.span, machine.is_pattern, &machine.name))
+        .collect()
 }
 
 /// The errors of a model that was built from a chart; those of links are reported in the chart. Without errors, the

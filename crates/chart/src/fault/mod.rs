@@ -322,15 +322,19 @@ pub(crate) fn empty_chart(span: Span) -> Diagnostic {
         .with_help("write a `machine`, a `pattern` or a `system`")
 }
 
-/// A machine that would have a control variable without values.
-pub(crate) fn empty_machine(span: Span, name: &str) -> Diagnostic {
+/// A machine or a pattern that would have a control variable without values.
+pub(crate) fn empty_machine(span: Span, is_pattern: bool, name: &str) -> Diagnostic {
+    let (what, help) = match is_pattern {
+        true => ("pattern", "write the states that it is in while it is at work; what is done at once is an action"),
+        false => ("machine", "write its states: `initial state idle` is the first one"),
+    };
     Diagnostic::error(
         "empty-chart",
         span,
-        format!("the machine `{name}` has no control state: there is nothing to build"),
+        format!("the {what} `{name}` has no control state: there is nothing to build"),
     )
     .here("its control variable would have no value")
-    .with_help("write its states: `initial state idle` is the first one")
+    .with_help(help)
 }
 
 /// A system whose imports lack the patterns that it is built from.
