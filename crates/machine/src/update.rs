@@ -14,7 +14,7 @@ use program::{DomainId, RuleId};
 use crate::layout::LocationIndex;
 use crate::store::Store;
 use crate::value::Value;
-use crate::words::{shorten, swap, take};
+use crate::words::{put, shorten, swap, take};
 
 /// One update: the new value of a location, and the place of the rule. Compiled code writes updates by their layout.
 #[derive(Debug, Clone)]
@@ -58,6 +58,49 @@ struct Overwritten {
 struct Logged {
     sequence: u32,
     index: u32,
+}
+
+// What is put together before it is put into a list is written in small pieces and read in large ones, for which a processor waits. So
+// each field is written where it stays.
+#[allow(unsafe_code)]
+impl Update {
+    #[inline(always)]
+    fn append(stack: &mut Vec<Update>, location: LocationIndex, rule: RuleId, value: &mut Value, previous: Stamp) {
+        stack.reserve(1);
+        let place = stack.spare_capacity_mut()[0].as_mut_ptr();
+        // SAFETY: there is room for one more, and all its fields are written before it counts.
+        unsafe {
+            (&raw mut (*place).location).write(location);
+            (&raw mut (*place).rule).write(rule);
+            put(&mut *(&raw mut (*place).value).cast(), value);
+            (&raw mut (*place).previous).write(previous);
+            stack.set_len(stack.len() + 1);
+        }
+    }
+}
+
+#[allow(unsafe_code)]
+impl Overwritten {
+    #[inline(always)]
+    fn append(
+        log: &mut Vec<Overwritten>,
+        location: LocationIndex,
+        rule: RuleId,
+        before: &mut Value,
+        (time, previous): (u64, Logged),
+    ) {
+        log.reserve(1);
+        let place = log.spare_capacity_mut()[0].as_mut_ptr();
+        // SAFETY: as above.
+        unsafe {
+            (&raw mut (*place).location).write(location);
+            (&raw mut (*place).rule).write(rule);
+            put(&mut *(&raw mut (*place).before).cast(), before);
+            (&raw mut (*place).time).write(time);
+            (&raw mut (*place).previous).write(previous);
+            log.set_len(log.len() + 1);
+        }
+    }
 }
 
 /// A unit being computed.
@@ -189,28 +232,33 @@ impl Updates {
 
     /// Adds an update to the current unit.
     #[inline]
-    pub fn push(&mut self, location: LocationIndex, value: Value, rule: RuleId) -> Result<(), Box<Clash>> {
+    pub fn push(&mut self, location: LocationIndex, mut value: Value, rule: RuleId) -> Result<(), Box<Clash>> {
+        self.push_taken(location, &mut value, rule)
+    }
+
+    /// Adds an update to the current unit, and takes its value.
+    fn push_taken(&mut self, location: LocationIndex, value: &mut Value, rule: RuleId) -> Result<(), Box<Clash>> {
         if location as usize >= self.stamps.len() {
             self.stamps.resize(location as usize + 1, Stamp::default());
         }
         let stamp = &mut self.stamps[location as usize];
         if stamp.unit == self.unit && stamp.index == Stamp::UNCHANGED {
             // Only compiled code leaves such stamps; it gives the step up, and the interpreter says whether this is one.
-            let clash = Clash { location, first: (Value::Undef, rule), second: (value, rule) };
+            let clash = Clash { location, first: (Value::Undef, rule), second: (take(value), rule) };
             return Err(Box::new(clash));
         }
         if stamp.unit == self.unit {
             let held = &self.stack[stamp.index as usize];
-            if held.value == value {
+            if held.value == *value {
                 return Ok(());
             }
             let first = (held.value.clone(), held.rule);
-            return Err(Box::new(Clash { location, first, second: (value, rule) }));
+            return Err(Box::new(Clash { location, first, second: (take(value), rule) }));
         }
         self.compound |= !value.is_scalar();
         let previous = *stamp;
         *stamp = Stamp { unit: self.unit, index: self.stack.len() as u32 };
-        self.stack.push(Update { location, value, rule, previous });
+        Update::append(&mut self.stack, location, rule, value, previous);
         Ok(())
     }
 
@@ -285,8 +333,7 @@ impl Updates {
             }
             let at = self.log.len();
             let previous = std::mem::replace(logged, Logged { sequence: self.sequence, index: at as u32 });
-            self.log.push(Overwritten { location, rule, before: Value::Undef, time, previous });
-            swap(&mut self.log[at].before, value);
+            Overwritten::append(&mut self.log, location, rule, value, (time, previous));
         }
         shorten(&mut self.stack, unit.updates, may_own);
         self.unit = unit.enclosing;
@@ -334,16 +381,19 @@ impl Updates {
     /// The same of all locations, in one pass over the log. The order of the updates, and so which of several clashes is found, is
     /// not that of [`Updates::end_sequence`].
     pub fn end_sequence_at_once(&mut self, sequence: Sequence, store: &mut Store) -> Result<(), Box<Clash>> {
-        let mut outcome = Ok(());
+        let (mut outcome, mut may_own) = (Ok(()), false);
         let mut log = std::mem::take(&mut self.log);
         for entry in log[sequence.log..].iter_mut().rev() {
             swap(&mut store.values[entry.location as usize], &mut entry.before);
             self.logged[entry.location as usize] = entry.previous;
             if outcome.is_ok() {
-                outcome = self.push(entry.location, take(&mut entry.before), entry.rule);
+                outcome = self.push_taken(entry.location, &mut entry.before, entry.rule);
+                may_own |= !entry.before.is_scalar();
+            } else {
+                may_own = true;
             }
         }
-        log.truncate(sequence.log);
+        shorten(&mut log, sequence.log, may_own);
         self.log = log;
         self.sequence = sequence.enclosing;
         self.forget_intermediate(sequence.created, store);

@@ -79,6 +79,19 @@ pub(crate) fn shorten<T>(list: &mut Vec<T>, len: usize, may_own: bool) {
     }
 }
 
+/// Moves a value to where there is none yet, and leaves undef.
+#[inline(always)]
+pub(crate) fn put(place: &mut MaybeUninit<Value>, value: &mut Value) {
+    let from = std::ptr::from_mut(value).cast::<MaybeUninit<u64>>();
+    let to = place.as_mut_ptr().cast::<MaybeUninit<u64>>();
+    // SAFETY: as in `swap`; the value is in one place at the end, since undef stands in the other.
+    unsafe {
+        to.write(from.read_volatile());
+        to.add(1).write(from.add(1).read_volatile());
+        from.write(MaybeUninit::new(UNDEF));
+    }
+}
+
 /// Takes a value, and leaves undef.
 #[inline(always)]
 pub(crate) fn take(place: &mut Value) -> Value {
