@@ -1,7 +1,7 @@
 //! Whether a model runs a machine, and begins it where its chart does.
 //!
 //! In: a machine, and its rule and control function in a model. Out: what is otherwise in the model. A model without a main rule runs
-//! nothing, so there is nothing to compare; a pattern is begun by whoever calls it.
+//! nothing, so there is nothing to compare. A pattern is begun by whoever calls it: before that its control variable is undef.
 
 use std::collections::BTreeSet;
 
@@ -69,6 +69,11 @@ pub(crate) struct NotUndef {
     pub(crate) given: Initial,
 }
 
+/// The function of a location.
+fn function_of(location: &str) -> &str {
+    location.split('(').next().unwrap_or_default().trim()
+}
+
 /// What has a value too early: the control variable of a pattern, which none is at work in before it is entered, and what remembers where a
 /// composite state was left.
 pub(crate) fn too_early(chart: &Chart, machine: &Machine, model: &Model) -> Vec<NotUndef> {
@@ -82,7 +87,7 @@ pub(crate) fn too_early(chart: &Chart, machine: &Machine, model: &Model) -> Vec<
     let histories = machine.shapes.iter().filter(remembers);
     let histories = histories.map(|shape| (memory_location(machine, shape), "the composite state is left", shape.span));
     let early = |(location, until, span): (String, &'static str, Span)| {
-        let name = location.split('(').next().unwrap_or_default().trim();
+        let name = function_of(&location);
         let function = model.functions.iter().position(|function| function.name == name)?;
         let given = initial_value(model, FunctionId(function as u32))?;
         let is_undef = matches!(&given, Initial::Value(value, _) if value == UNDEF);
@@ -98,12 +103,13 @@ pub(crate) fn intruders(chart: &Chart, machine: &Machine, model: &Model) -> Vec<
     let remembers =
         |shape: &&Shape| shape.composite().is_some_and(|composite| matches!(composite.history, Some(History::Made)));
     let histories = machine.shapes.iter().filter(remembers).map(|shape| memory_location(machine, shape));
-    let name = |location: String| location.split('(').next().unwrap_or_default().trim().to_string();
-    let guarded: BTreeSet<String> = control.into_iter().chain(histories).map(name).collect();
+    let locations = control.into_iter().chain(histories);
+    let guarded: BTreeSet<String> = locations.map(|location| function_of(&location).to_string()).collect();
     let mut found = Vec::new();
     for rule in model.may_run().into_iter().map(|id| model.rule(id)).filter(|rule| !own.contains(&rule.name)) {
         rule.body.walk(&mut |node| {
-            if let RuleKind::Update { target: Target::Location { function, .. }, .. } = &node.kind
+            if let RuleKind::Update { target, .. } | RuleKind::Return { target, .. } = &node.kind
+                && let Target::Location { function, .. } = target
                 && let function = &model.function(*function).name
                 && guarded.contains(function)
             {

@@ -159,6 +159,8 @@ fn patterns_and_histories_begin_undef_and_are_left_to_their_machines() {
     assert_eq!(beside("skip"), []);
     assert_eq!(beside("if mode = OFF and cut then mode := OPEN endif"), sets("r_Main", "mode"));
     assert_eq!(beside("if cut then workingLeft := OPEN endif"), sets("r_Main", "workingLeft"));
+    let turbo = "turbo rule r_next in ModeState = result := OFF\n\tmain rule r_Main =\n\t\tpar r_door[] mode <- r_next() endpar";
+    assert_eq!(differs(main, turbo), sets("r_Main", "mode"));
     assert_eq!(differs("rule r_grip = skip", "rule r_grip = mode := OFF"), sets("r_grip", "mode"));
 }
 

@@ -158,6 +158,10 @@ fn what_building_anew_would_define_otherwise_is_told() {
     assert_eq!(told(&text.replace("= mq_taken(codes) !=", "=\n// new?\n mq_taken(codes)   !=")), [""; 0]);
     let inverted = text.replace("= mq_taken(codes) !=", "= mq_taken(codes) =");
     assert_eq!(told(&inverted), ["the definition of `sequencer_isNewCodes` differs from what the chart is built to"]);
+    // An overload by hand hides none of it.
+    let overload = "\n\tfunction sequencer_isNewCodes($n in Integer) = $n > 0\n\n\tmain rule";
+    assert_eq!(told(&text.replacen("\n\tmain rule", overload, 1)), [""; 0]);
+    assert_eq!(told(&inverted.replacen("\n\tmain rule", overload, 1)).len(), 1);
     let line = text.lines().find(|line| line.contains("function sequencer_isNewCodes")).expect("it is built");
     assert_eq!(told(&text.replace(line, "")), ["the model lacks the definition of `sequencer_isNewCodes`"]);
 }

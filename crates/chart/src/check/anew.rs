@@ -13,8 +13,8 @@ use crate::build::{Known, build};
 use crate::chart::Chart;
 use crate::fault;
 
-/// What a section says of a function: how it is declared, or how it is defined.
-type Said = BTreeMap<(SyntaxKind, String), (String, Span)>;
+/// What a section says of the functions of a name: how each is declared, or how each is defined.
+type Said = BTreeMap<(SyntaxKind, String), Vec<(String, Span)>>;
 
 /// The functions of which a model says something else than it would if it were built anew; `known` are the names of the chart's imports.
 pub fn outdated(chart: &Chart, known: &Known, file: FileId, text: &str) -> Vec<Diagnostic> {
@@ -27,18 +27,18 @@ pub fn outdated(chart: &Chart, known: &Known, file: FileId, text: &str) -> Vec<D
         _ => format!("the definition of `{name}`"),
     };
     let mut faults = Vec::new();
-    for (key, (new, _)) in &anew {
-        match there.get(key) {
-            Some((old, _)) if old == new => {}
-            Some((_, span)) => {
-                let message = format!("{} differs from what the chart is built to", name(key));
-                faults.push(fault::system_differs(system.span, message, Some((*span, "the model's"))));
-            }
-            None => {
-                let message = format!("the model lacks {}", name(key));
-                faults.push(fault::system_differs(system.span, message, None));
-            }
+    for (key, texts) in &anew {
+        let known = there.get(key).map_or(&[][..], Vec::as_slice);
+        if texts.iter().all(|(new, _)| known.iter().any(|(old, _)| old == new)) {
+            continue;
         }
+        // Of overloads, it is the one that building would no longer write so.
+        let other = known.iter().find(|(old, _)| !texts.iter().any(|(new, _)| old == new));
+        let message = match other {
+            Some(_) => format!("{} differs from what the chart is built to", name(key)),
+            None => format!("the model lacks {}", name(key)),
+        };
+        faults.push(fault::system_differs(system.span, message, other.map(|(_, span)| (*span, "the model's"))));
     }
     faults
 }
@@ -49,9 +49,14 @@ fn said(file: FileId, text: &str) -> Said {
         root.children().filter(|node| matches!(node.kind(), SyntaxKind::SIGNATURE | SyntaxKind::DEFINITIONS));
     let items = sections.flat_map(|section| section.children());
     let functions = items.filter(|item| matches!(item.kind(), SyntaxKind::FUNCTION_DECL | SyntaxKind::FUNCTION_DEF));
-    functions
-        .filter_map(|item| Some(((item.kind(), named(&item)?), (normal(&item), Span::new(file, trimmed_range(&item))))))
-        .collect()
+    let mut said = Said::new();
+    for item in functions {
+        if let Some(name) = named(&item) {
+            let place = Span::new(file, trimmed_range(&item));
+            said.entry((item.kind(), name)).or_default().push((normal(&item), place));
+        }
+    }
+    said
 }
 
 /// The function that an item is about.

@@ -80,8 +80,12 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     let mut solver = Process::find(arguments.solver.as_deref());
     let mut faults = chart::check(&chart, &probed, &checked, &mut solver);
     // What is told already may be why it is outdated.
-    if let Some(known) = known.ok().filter(|_| !groundstate::has_errors(&faults)) {
-        faults.extend(chart::outdated(&chart, &known, checked.model.root, &model.text));
+    if !groundstate::has_errors(&faults) {
+        faults.extend(match known {
+            Ok(known) => chart::outdated(&chart, &known, checked.model.root, &model.text),
+            // Without the chart's imports it is not known what building would write.
+            Err(unknown) => unknown.imports,
+        });
     }
     let (mut notes, faults): (Vec<_>, Vec<_>) = faults.into_iter().partition(|fault| fault.severity == Severity::Note);
     let differs = groundstate::has_errors(&faults);
